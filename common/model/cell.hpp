@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/model/ids.hpp"
+#include "common/model/robot_model.hpp"
+
+namespace interlace::model {
+
+/// Speed limits of a TCP. Without angular limits a rotation follows the translation it goes with, and a pure rotation takes
+/// kUnlimitedRotation; see docs/adr/0002-rotation-without-limits.md.
+struct TcpLimits {
+  double velocity = 0;                         ///< [m/s]
+  double acceleration = 0;                     ///< [m/s²]
+  std::optional<double> angular_velocity;      ///< [rad/s]
+  std::optional<double> angular_acceleration;  ///< [rad/s²]
+};
+
+/// How far a controller may be from ideal. The planner widens its predictions by it; the simulated controller draws from it.
+struct ControllerTraits {
+  double start_latency = 0;  ///< mean time from the command to the first movement [s]
+  double start_jitter = 0;   ///< largest deviation from that mean [s]
+  double speed_error = 0;    ///< largest relative deviation of the duration, 0.01 = 1 %
+
+  /// Latest start after the command [s].
+  [[nodiscard]] double latest_start() const { return start_latency + start_jitter; }
+};
+
+struct Robot {
+  RobotName name;
+  RobotModel model;
+  Pose X_WB = Pose::Identity();
+  Joints start = Joints::Zero();  ///< joints when the cell is switched on
+  Joints home = Joints::Zero();
+  TcpLimits tcp;
+  ControllerTraits controller;
+};
+
+struct PlanningOptions {
+  double resolution = 0.01;         ///< smallest cell of a collision map [s]
+  double margin = 0;                ///< clearance kept beyond contact [m]
+  std::string strategy = "event";
+  std::optional<double> lead;             ///< shortest time from a decision to a start [s]; default: the program's own
+  std::optional<double> start_tolerance;  ///< latest start after the planned one, before the controller's own latency [s]; ditto
+};
+
+/// Checked description of one cell: at least one robot, unique names, start postures reachable, inside limits and clear of each other.
+struct Cell {
+  std::string name;
+  std::vector<Robot> robots;
+  PlanningOptions planning;
+
+  /// Index of the robot called `name`, if there is one.
+  [[nodiscard]] std::optional<RobotIndex> find(const RobotName& robot) const {
+    for (RobotIndex i = 0; i < robots.size(); ++i) {
+      if (robots[i].name == robot) return i;
+    }
+    return std::nullopt;
+  }
+};
+
+}  // namespace interlace::model
