@@ -1,0 +1,101 @@
+#include "planner/core/admission.hpp"
+
+#include <fmt/format.h>
+
+namespace interlace::core {
+
+namespace {
+
+/// Capsules fixed to a robot's base, as bodies that never move.
+class ImmovableBase {
+ public:
+  explicit ImmovableBase(const model::Robot& robot) : robot_(&robot), shapes_(robot.model) {
+    std::vector<model::Capsule> capsules;
+    std::vector<Body> bodies;
+    model::place_capsules(robot.model, robot.X_WB, robot.start, capsules);
+    shapes_.place(capsules, bodies);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (robot.model.capsules[i].link == 0) bodies_.emplace_back(i, bodies[i]);
+    }
+  }
+  [[nodiscard]] const model::Robot& robot() const { return *robot_; }
+  [[nodiscard]] const std::vector<std::pair<std::size_t, Body>>& bodies() const { return bodies_; }
+
+ private:
+  const model::Robot* robot_;
+  BodyShapes shapes_;
+  std::vector<std::pair<std::size_t, Body>> bodies_;
+};
+
+class PathCheck {
+ public:
+  PathCheck(SampledMotion& motion, double margin) : motion_(motion), margin_(margin) {}
+
+  std::optional<model::MotionError> against_itself() {
+    return walk(0, 0, [this](const SampledMotion::Piece& piece) -> std::optional<model::MotionError> {
+      for (const auto& [i, j] : motion_.robot().model.self_pairs) {
+        if (near(piece.bodies[i], piece.bodies[j], piece.reach[i] + piece.reach[j])) {
+          return error(piece, model::Reason::self_collision, fmt::format("{} would touch the robot's own {}", name(i), name(j)));
+        }
+      }
+      return std::nullopt;
+    });
+  }
+
+  std::optional<model::MotionError> against(const ImmovableBase& base) {
+    return walk(0, 0, [&](const SampledMotion::Piece& piece) -> std::optional<model::MotionError> {
+      for (std::size_t i = 0; i < piece.bodies.size(); ++i) {
+        for (const auto& [j, body] : base.bodies()) {
+          if (near(piece.bodies[i], body, piece.reach[i])) {
+            return error(piece, model::Reason::base_collision,
+                         fmt::format("{} would touch {} of {}", name(i), base.robot().model.capsules[j].name, base.robot().name.str()));
+          }
+        }
+      }
+      return std::nullopt;
+    });
+  }
+
+ private:
+  /// Depth first in order of time, so the first finding at the resolution limit is the first place on the path.
+  template <typename Check>
+  std::optional<model::MotionError> walk(int level, std::size_t index, const Check& check) {
+    auto found = check(motion_.piece(level, index));
+    if (!found || level == motion_.depth()) return found;
+    if (auto first = walk(level + 1, 2 * index, check)) return first;
+    return walk(level + 1, 2 * index + 1, check);
+  }
+
+  [[nodiscard]] bool near(const Body& a, const Body& b, double reach) const {
+    const double bound = reach + margin_;
+    return clearance_lower_bound(a, b) <= bound && clearance(a, b) <= bound;
+  }
+
+  [[nodiscard]] std::string name(std::size_t body) const { return motion_.robot().model.capsules[body].name; }
+
+  [[nodiscard]] model::MotionError error(const SampledMotion::Piece& piece, model::Reason reason, std::string what) const {
+    const double duration = motion_.motion().duration();
+    const double progress = duration > 0 ? piece.centre / duration : 1;
+    const Vector3 place = motion_.motion().tcp(piece.centre).translation();
+    return {reason, progress, place,
+            fmt::format("{} at {:.0f} % of the path, TCP at ({:.1f}, {:.1f}, {:.1f}) mm", what, 100 * progress, 1e3 * place.x(),
+                        1e3 * place.y(), 1e3 * place.z())};
+  }
+
+  SampledMotion& motion_;
+  double margin_;
+};
+
+}  // namespace
+
+std::optional<model::MotionError> path_collision(SampledMotion& motion, const model::Cell& cell, model::RobotIndex robot, double margin) {
+  PathCheck check{motion, margin};
+  if (auto found = check.against_itself()) return found;
+  for (model::RobotIndex other = 0; other < cell.robots.size(); ++other) {
+    if (other == robot) continue;
+    if (auto found = check.against(ImmovableBase{cell.robots[other]})) return found;
+  }
+  return std::nullopt;
+}
+
+}  // namespace interlace::core

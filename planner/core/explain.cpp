@@ -1,0 +1,84 @@
+#include "planner/core/explain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace interlace::core {
+
+namespace {
+
+/// A finite time inside [from, to], whose ends may be infinite.
+double inside(double from, double to) {
+  if (std::isinf(from) && std::isinf(to)) return 0;
+  if (std::isinf(from)) return to;
+  if (std::isinf(to)) return from;
+  return (from + to) / 2;
+}
+
+Vector3 meeting_place(const Candidate& candidate, const Neighbour& neighbour, const BlockedCell& cell) {
+  const auto bodies_at = [](SampledMotion& m, double t, BodyShapes& shapes) {
+    std::vector<model::Capsule> capsules;
+    std::vector<Body> bodies;
+    model::place_capsules(m.robot().model, m.robot().X_WB, m.motion().joints(t), capsules);
+    shapes.place(capsules, bodies);
+    return bodies;
+  };
+  BodyShapes own_shapes{candidate.motion->robot().model};
+  BodyShapes other_shapes{neighbour.motion->robot().model};
+  const auto own = bodies_at(*candidate.motion, inside(cell.tau0, cell.tau1), own_shapes);
+  const auto other = bodies_at(*neighbour.motion, inside(cell.t0, cell.t1), other_shapes);
+  return meeting_point(own[cell.own_body], other[cell.other_body]);
+}
+
+}  // namespace
+
+std::optional<model::Conflict> explain_conflict(const Candidate& candidate, const Neighbour& neighbour, const TimingMap& map,
+                                                const std::vector<ForbiddenStart>& forbidden, const StartInterval& span) {
+  const BlockedCell* deepest = nullptr;
+  std::vector<StartInterval> intervals;
+  for (const ForbiddenStart& f : forbidden) {
+    if (f.interval.until < span.from || f.interval.from >= span.until) continue;
+    intervals.push_back(f.interval);
+    const BlockedCell& cell = map.blocked[f.cell];
+    if (!deepest || cell.clearance < deepest->clearance) deepest = &cell;
+  }
+  if (!deepest) return std::nullopt;
+  const auto stretches = united(std::move(intervals));
+  model::Conflict c;
+  c.blocker = neighbour.motion->robot().name;
+  c.own_link = candidate.motion->robot().model.capsules[deepest->own_body].name;
+  c.blocker_link = neighbour.motion->robot().model.capsules[deepest->other_body].name;
+  c.from = std::max(stretches.front().from, span.from);
+  c.until = stretches.back().until;
+  c.clearance = deepest->clearance;
+  c.place = meeting_place(candidate, neighbour, *deepest);
+  return c;
+}
+
+model::Conflict lost_conflict(const Candidate& candidate, const Neighbour& neighbour, Instant from) {
+  model::Conflict c;
+  c.blocker = neighbour.motion->robot().name;
+  c.from = from;
+  c.place = candidate.motion->motion().tcp(0).translation();
+  return c;
+}
+
+std::string sentence(const model::RobotName& robot, const Assessment& a, double delay) {
+  if (a.reason == model::Reason::none || a.conflicts.empty()) return {};
+  if (a.reason == model::Reason::robot_unknown) {
+    return fmt::format("{} waits: {} is not heard from and could be anywhere in its reach", robot.str(), a.conflicts.front().blocker.str());
+  }
+  std::string text;
+  for (const model::Conflict& c : a.conflicts) {
+    text += fmt::format("{}{}'s {} would meet {}'s {} near ({:.0f}, {:.0f}, {:.0f}) mm", text.empty() ? "" : "; ", robot.str(), c.own_link,
+                        c.blocker.str(), c.blocker_link, 1e3 * c.place.x(), 1e3 * c.place.y(), 1e3 * c.place.z());
+    text += c.until == model::kForever ? fmt::format(" as long as {} stays there", c.blocker.str())
+                                       : fmt::format(" if it started before {:.2f} s", model::to_seconds(c.until));
+  }
+  if (a.start) return fmt::format("{} starts {:.2f} s later: {}", robot.str(), delay, text);
+  return fmt::format("{} cannot start: {}", robot.str(), text);
+}
+
+}  // namespace interlace::core

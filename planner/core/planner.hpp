@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "common/model/cell.hpp"
+#include "common/model/messages.hpp"
+#include "planner/core/robot_record.hpp"
+
+namespace interlace::core {
+
+/// What a planner is told once. Defaults are those of virtual time, where messages take none.
+struct PlannerOptions {
+  std::string strategy = "event";
+  Duration lead{};             ///< shortest time from a decision to a start
+  Duration start_tolerance{};  ///< window given to a proxy beyond its controller's own latency and jitter
+  Duration confirm{};          ///< from a start until the planner has surely heard of it
+  std::optional<Duration> posture_timeout;  ///< a robot silent for longer is lost; empty: never
+  Duration answer_timeout = std::chrono::milliseconds{100};  ///< a dispatch unanswered for longer is sent again
+  std::size_t queue_limit = 1000;          ///< waiting commands per robot
+  std::size_t remembered = 10000;          ///< finished commands that are still answered by id
+  std::function<double()> stopwatch;       ///< elapsed [s], for statistics only
+};
+
+/// What to do and to say, in order.
+struct Decisions {
+  std::vector<model::Dispatch> dispatches;
+  std::vector<model::Withdrawal> withdrawals;
+  std::vector<model::CommandStatus> statuses;
+
+  [[nodiscard]] bool empty() const { return dispatches.empty() && withdrawals.empty() && statuses.empty(); }
+};
+
+/// The one planner of a cell: queues, start windows, commitments. Pure: no clock, thread, file, log or socket. Events go in with the
+/// time they happened, decisions come out as values. `now` never goes backwards. Not thread-safe.
+/// Promise: a dispatch is sent only for a start that is clear of every motion in progress or promised, wherever in their windows those
+/// start, and also if one that has not been confirmed never starts.
+class Planner {
+ public:
+  /// Throws std::invalid_argument when the strategy is unknown. `cell` must have been checked (common/app/config).
+  Planner(std::shared_ptr<const model::Cell> cell, PlannerOptions options);
+
+  Decisions on(const model::CommandSubmitted& event, Instant now);
+  Decisions on(const model::CommandCancelled& event, Instant now);
+  Decisions on(const model::StopRequested& event, Instant now);
+  Decisions on(const model::PostureReported& event, Instant now);
+  Decisions on(const model::ExecutionReported& event, Instant now);
+
+  /// Time passes: sends what is due, notices who is silent.
+  Decisions advance(Instant now);
+
+  /// When advance() has something to do next, if nothing else happens.
+  [[nodiscard]] std::optional<Instant> next_deadline() const;
+
+  /// The whole state, for the heartbeat. `cell`, `fingerprint` and `incarnation` are the caller's to fill.
+  [[nodiscard]] model::PlannerState state(Instant now) const;
+
+  [[nodiscard]] MapStore& maps() { return maps_; }
+
+ private:
+  // Commands
+  void reject(model::CommandStatus status, model::Reason reason, std::string text, Decisions& out);
+  [[nodiscard]] model::Result<SampledMotionPtr, model::MotionError> admit(model::RobotIndex robot, const model::Joints& from,
+                                                                          const model::MotionRequest& request) const;
+  void rejudge_queue(RobotRecord& r, Decisions& out);
+  bool cancel(RobotRecord& r, const model::CommandId& id, Decisions& out);
+  void publish(const model::CommandStatus& status, Decisions& out);
+
+  // Robots
+  void stand_at(RobotRecord& r, const model::Joints& q, Instant now, Decisions& out);
+  void put_back(RobotRecord& r, model::Reason why, const std::string& text, Decisions& out);
+  void revoke_dependents(model::RobotIndex robot, Decisions& out);
+  [[nodiscard]] model::RobotIndex index_of(const RobotRecord& r) const { return static_cast<model::RobotIndex>(&r - robots_.data()); }
+
+  // Scheduling
+  void notice_silence(Instant now, Decisions& out);
+  void schedule(Instant now, Decisions& out);
+  bool try_commit(RobotRecord& r, Instant now, Decisions& out);
+  void send_due(Instant now, Decisions& out);
+  enum class Departures { open, met, broken };
+  [[nodiscard]] Departures departures_of(const Commitment& c) const;
+  void dispatch(RobotRecord& r, Instant now, Decisions& out);
+
+  std::shared_ptr<const model::Cell> cell_;
+  PlannerOptions options_;
+  std::unique_ptr<Strategy> strategy_;
+  MapStore maps_;
+  std::vector<RobotRecord> robots_;
+  std::unordered_map<model::CommandId, model::CommandStatus> known_;  // newest status of every command still answered by id
+  std::deque<model::CommandId> finished_;                             // final ones, oldest first
+  std::uint64_t accepted_ = 0, rejected_ = 0, completed_ = 0;
+};
+
+}  // namespace interlace::core

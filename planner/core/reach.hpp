@@ -1,0 +1,11 @@
+#pragma once
+
+#include "planner/core/sampled_motion.hpp"
+
+namespace interlace::core {
+
+/// True unless it is proven that no body of `motion` ever comes into the sphere that `other` can reach with any of its points: where a
+/// robot that is not heard from could be.
+[[nodiscard]] bool enters_reach(SampledMotion& motion, const model::Robot& other);
+
+}  // namespace interlace::core

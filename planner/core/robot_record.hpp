@@ -1,0 +1,65 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "planner/core/strategy.hpp"
+
+namespace interlace::core {
+
+/// An admitted command, with the motion it will be from where its robot will then be.
+struct QueuedCommand {
+  model::CommandStatus status;
+  model::MotionRequest request;
+  int priority = 0;
+  SampledMotionPtr motion;
+  std::uint32_t attempts = 0;  ///< plans sent to the proxy so far
+};
+
+/// A command whose start is decided: a fact for everyone after.
+struct Commitment {
+  enum class Phase {
+    held,        ///< decided, not yet sent: may still be taken back without anyone knowing
+    dispatched,  ///< sent; the proxy starts it in its window or refuses
+    started
+  };
+  QueuedCommand command;
+  Phase phase = Phase::held;
+  std::uint64_t serial = 0;  ///< tells commitments of one robot apart
+  Instant start_from{};      ///< planned start, or the earliest it can have been
+  Instant start_until{};     ///< latest start
+  std::vector<std::pair<model::RobotIndex, std::uint64_t>> departures;  ///< commitments that must have started before this is sent
+  bool cancel_requested = false;
+  bool accepted = false;     ///< the proxy has confirmed the dispatch
+  Instant sent{};            ///< when the dispatch was last sent
+};
+
+/// Everything the planner knows of one robot.
+struct RobotRecord {
+  const model::Robot* robot = nullptr;
+  model::RobotMode mode = model::RobotMode::unknown;
+  bool heard = false;  ///< a posture came and is not older than the time-out
+  bool ready = true;   ///< its controller would accept a command
+  bool foreign = false;  ///< moves although nobody here told it to
+  Instant last_heard{};
+  SampledMotionPtr standing;            ///< where it stands, or stood when its motion began
+  std::deque<QueuedCommand> queue;      ///< main queue: admitted, in order
+  std::optional<Commitment> committed;  ///< at most one at a time
+  std::uint64_t last_serial = 0;
+  std::uint64_t last_started = 0;  ///< serial of the newest commitment that began
+  Instant ready_since{};           ///< since when the head of the queue could have gone
+
+  /// Neither heard from nor explained by what we told it: it may be anywhere in its reach.
+  [[nodiscard]] bool lost() const { return !heard || foreign; }
+
+  /// Posture the robot will have when the queue is done [rad].
+  [[nodiscard]] const model::Joints& joints_at_end() const;
+
+  /// Posture from which the head of the queue will start [rad].
+  [[nodiscard]] const model::Joints& joints_before_queue() const;
+
+  /// As its neighbours have to see it at `now`.
+  [[nodiscard]] Neighbour as_neighbour(model::RobotIndex index, Instant now) const;
+};
+
+}  // namespace interlace::core

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "common/model/motion.hpp"
+#include "planner/core/clearance.hpp"
+
+namespace interlace::core {
+
+/// A motion as the collision maps see it: its duration halved again and again, each piece with the bodies at its centre and how far they
+/// may be from there anywhere in the piece. Pieces are computed when first asked for and kept. Not thread-safe.
+class SampledMotion {
+ public:
+  struct Piece {
+    double t0 = 0, centre = 0, t1 = 0;  ///< local time [s]
+    std::vector<Body> bodies;           ///< at the centre, in the order of the model's capsules
+    std::vector<double> reach;          ///< displacement bound of each body within the piece [m]
+    double largest_reach = 0;           ///< [m]
+  };
+
+  /// Pieces of the deepest level are no longer than `resolution` [s], and short motions still have 16 of them.
+  SampledMotion(model::Motion motion, double resolution);
+
+  SampledMotion(const SampledMotion&) = delete;
+  SampledMotion& operator=(const SampledMotion&) = delete;
+
+  [[nodiscard]] const model::Motion& motion() const { return motion_; }
+  [[nodiscard]] const model::Robot& robot() const { return motion_.robot(); }
+  [[nodiscard]] std::uint64_t id() const { return id_; }  ///< unique in this process: the key of kept maps
+  [[nodiscard]] int depth() const { return depth_; }      ///< halvings down to the resolution; 0 for standing
+
+  /// Piece `index` of the 2^level pieces of `level`.
+  [[nodiscard]] const Piece& piece(int level, std::size_t index);
+
+  /// Standing at the motion's first and last posture.
+  [[nodiscard]] SampledMotion& at_start();
+  [[nodiscard]] SampledMotion& at_end();
+
+ private:
+  model::Motion motion_;
+  std::uint64_t id_;
+  int depth_ = 0;
+  BodyShapes shapes_;
+  std::vector<std::unique_ptr<Piece>> pieces_;  // binary tree in heap order
+  std::unique_ptr<SampledMotion> at_start_, at_end_;
+};
+
+using SampledMotionPtr = std::shared_ptr<SampledMotion>;
+
+}  // namespace interlace::core
