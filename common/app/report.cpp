@@ -1,0 +1,155 @@
+#include "common/app/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace interlace::app {
+
+using model::CommandState;
+
+DurationStatistics statistics_of(std::vector<double> seconds) {
+  DurationStatistics s;
+  s.count = seconds.size();
+  if (seconds.empty()) return s;
+  std::sort(seconds.begin(), seconds.end());
+  const auto quantile = [&](double q) {
+    return 1e3 * seconds[static_cast<std::size_t>(q * static_cast<double>(seconds.size() - 1) + 0.5)];
+  };
+  s.mean = 1e3 * std::accumulate(seconds.begin(), seconds.end(), 0.0) / static_cast<double>(seconds.size());
+  s.p50 = quantile(0.5);
+  s.p99 = quantile(0.99);
+  s.max = 1e3 * seconds.back();
+  return s;
+}
+
+void ReportCollector::on_submitted(const model::CommandId& id, const model::RobotName& robot, double release) {
+  if (!by_id_.emplace(id, rows_.size()).second) return;
+  CommandRow row;
+  row.id = id;
+  row.robot = robot;
+  row.release = release;
+  rows_.push_back(std::move(row));
+  ++open_;
+}
+
+void ReportCollector::on_status(const model::CommandStatus& status) {
+  auto found = by_id_.find(status.id);
+  if (found == by_id_.end()) {
+    if (!status.escape) return;
+    on_submitted(status.id, status.robot, model::to_seconds(status.submitted - origin_));
+    found = by_id_.find(status.id);
+    rows_[found->second].escape = true;
+  }
+  CommandRow& row = rows_[found->second];
+  if (model::is_final(row.state)) return;
+  row.state = status.state;
+  // The reason of a delay outlives it: a command that has started says no more why it waited.
+  if (status.reason != model::Reason::none) {
+    row.reason = status.reason;
+    row.explanation = status.text;
+    row.conflicts = status.conflicts;
+  }
+  row.delay = std::max(row.delay, status.delay);
+  if (status.state >= CommandState::started && status.state != CommandState::rejected && status.state != CommandState::cancelled) {
+    if (status.start) row.start = model::to_seconds(*status.start - origin_);
+    if (status.end) row.end = model::to_seconds(*status.end - origin_);
+  }
+  if (model::is_final(status.state)) --open_;
+}
+
+RunReport ReportCollector::finish(std::string strategy) const {
+  RunReport r;
+  r.strategy = std::move(strategy);
+  r.commands = rows_;
+  std::optional<double> first, last;
+  for (const CommandRow& row : rows_) {
+    if (row.escape) {
+      ++r.escapes;
+    } else {
+      ++r.submitted;
+      if (row.state == CommandState::completed) ++r.completed;
+      if (row.state == CommandState::rejected) ++r.rejected;
+      if (!model::is_final(row.state) || row.state == CommandState::failed) ++r.unserved;
+    }
+    if (row.start) first = first ? std::min(*first, *row.start) : *row.start;
+    if (row.end && row.state == CommandState::completed) last = last ? std::max(*last, *row.end) : *row.end;
+  }
+  if (first && last) r.makespan = *last - *first;
+  return r;
+}
+
+namespace {
+
+nlohmann::json to_json(const std::optional<DurationStatistics>& s) {
+  if (!s) return nullptr;
+  return {{"count", s->count}, {"mean", s->mean}, {"p50", s->p50}, {"p99", s->p99}, {"max", s->max}};
+}
+
+template <typename T>
+nlohmann::json or_null(const std::optional<T>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+}
+
+nlohmann::json to_json(const model::Conflict& c) {
+  return {{"blocker", c.blocker.str()},
+          {"link", c.own_link},
+          {"blocker_link", c.blocker_link},
+          {"clearance_m", c.clearance},
+          {"place_m", {c.place.x(), c.place.y(), c.place.z()}},
+          {"open_ended", c.until == model::kForever}};
+}
+
+}  // namespace
+
+nlohmann::json to_json(const RunReport& r) {
+  nlohmann::json commands = nlohmann::json::array();
+  for (const CommandRow& row : r.commands) {
+    nlohmann::json conflicts = nlohmann::json::array();
+    for (const model::Conflict& c : row.conflicts) conflicts.push_back(to_json(c));
+    commands.push_back({{"id", row.id.str()},
+                        {"robot", row.robot.str()},
+                        {"origin", row.escape ? "escape" : "client"},
+                        {"state", model::to_string(row.state)},
+                        {"release_s", row.release},
+                        {"start_s", or_null(row.start)},
+                        {"end_s", or_null(row.end)},
+                        {"delay_s", row.delay},
+                        {"reason", model::to_string(row.reason)},
+                        {"explanation", row.explanation},
+                        {"conflicts", std::move(conflicts)}});
+  }
+  return {{"strategy", r.strategy},
+          {"makespan_s", r.makespan},
+          {"submitted", r.submitted},
+          {"completed", r.completed},
+          {"rejected", r.rejected},
+          {"unserved", r.unserved},
+          {"escapes", r.escapes},
+          {"warnings", r.warnings},
+          {"collisions", or_null(r.collisions)},
+          {"min_clearance_m", or_null(r.least_clearance)},
+          {"map_build_ms", to_json(r.map_build)},
+          {"decision_ms", to_json(r.decision)},
+          {"commands", std::move(commands)}};
+}
+
+std::string summary(const RunReport& r) {
+  std::string text = fmt::format("{}: {} of {} commands completed in {:.2f} s", r.strategy, r.completed, r.submitted, r.makespan);
+  if (r.rejected) text += fmt::format(", {} rejected", r.rejected);
+  if (r.unserved) text += fmt::format(", {} unserved", r.unserved);
+  if (r.escapes) text += fmt::format(", {} escapes", r.escapes);
+  if (r.collisions && *r.collisions) text += fmt::format(", {} COLLISIONS", *r.collisions);
+  if (r.least_clearance) text += fmt::format(", least clearance {:.1f} mm", 1e3 * *r.least_clearance);
+  text += '\n';
+  for (const CommandRow& row : r.commands) {
+    if (row.state == CommandState::completed) continue;
+    text += fmt::format("  {} ({}) {}: {}\n", row.id.str(), row.robot.str(), model::to_string(row.state),
+                        row.explanation.empty() ? model::to_string(row.reason) : row.explanation);
+  }
+  return text;
+}
+
+}  // namespace interlace::app

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/model/messages.hpp"
+
+namespace interlace::app {
+
+/// Count, mean, median, 99th percentile and largest of a set of durations.
+struct DurationStatistics {
+  std::size_t count = 0;
+  double mean = 0, p50 = 0, p99 = 0, max = 0;  ///< [ms]
+};
+
+/// Statistics of durations given in seconds.
+[[nodiscard]] DurationStatistics statistics_of(std::vector<double> seconds);
+
+/// One command of a run, times from the start of the run [s].
+struct CommandRow {
+  model::CommandId id;
+  model::RobotName robot;
+  bool escape = false;
+  double release = 0;
+  std::optional<double> start, end;
+  double delay = 0;
+  model::CommandState state = model::CommandState::queued;
+  model::Reason reason = model::Reason::none;
+  std::string explanation;
+  std::vector<model::Conflict> conflicts;
+};
+
+/// What a run came to: the report of the contract (DESIGN section 8). What a program cannot know stays empty and is null in JSON.
+struct RunReport {
+  std::string strategy;
+  double makespan = 0;  ///< first start to last end [s]
+  std::size_t submitted = 0, completed = 0, rejected = 0, unserved = 0, escapes = 0, warnings = 0;
+  std::optional<std::size_t> collisions;
+  std::optional<double> least_clearance;  ///< [m]
+  std::optional<DurationStatistics> map_build, decision;
+  std::vector<CommandRow> commands;
+};
+
+/// The report as one JSON object with the contract's field names.
+[[nodiscard]] nlohmann::json to_json(const RunReport& report);
+
+/// A few lines for people: how many completed, how long, what went wrong.
+[[nodiscard]] std::string summary(const RunReport& report);
+
+/// Collects a run's commands from their statuses. The same collector serves virtual time and DDS.
+class ReportCollector {
+ public:
+  /// `origin`: planner time that counts as the start of the run.
+  explicit ReportCollector(model::Instant origin) : origin_(origin) {}
+
+  void on_submitted(const model::CommandId& id, const model::RobotName& robot, double release);
+
+  /// Statuses of commands nobody submitted here are taken only when they are escapes.
+  void on_status(const model::CommandStatus& status);
+
+  [[nodiscard]] bool all_final() const { return open_ == 0; }
+  [[nodiscard]] std::size_t open() const { return open_; }  ///< submitted and not yet final
+  [[nodiscard]] const std::vector<CommandRow>& rows() const { return rows_; }
+
+  /// The counts, the makespan and the rows.
+  [[nodiscard]] RunReport finish(std::string strategy) const;
+
+ private:
+  model::Instant origin_;
+  std::vector<CommandRow> rows_;
+  std::map<model::CommandId, std::size_t> by_id_;
+  std::size_t open_ = 0;
+};
+
+}  // namespace interlace::app

@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "common/app/command_line.hpp"
+#include "common/app/config/cell_file.hpp"
+#include "common/app/config/program_file.hpp"
+#include "planner/core/strategy.hpp"
+#include "simulator/virtual_cell.hpp"
+
+using namespace interlace;
+using app::ExitCode;
+
+namespace {
+
+struct Arguments {
+  std::string cell, program, trace, report;
+  std::string strategy;
+  double trace_period = 0.01;
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
+std::optional<ExitCode> parse(int argc, char** argv, Arguments& a) {
+  CLI::App cli{
+      "Runs a program on a cell in virtual time: the planner and the simulated controllers of the daemons, without waiting for them.\n"
+      "Prints how long it took, what was delayed and whether anything touched."};
+  cli.add_option("CELL", a.cell, "cell file (deploy/cells/*/cell.yaml)")->required();
+  cli.add_option("PROGRAM", a.program, "program file")->required();
+  std::string names = "all";
+  for (const auto name : core::strategy_names()) names += fmt::format(", {}", name);
+  cli.add_option("--strategy", a.strategy, "how starts are chosen: " + names + "; default: the cell file's");
+  cli.add_option("--trace", a.trace, "write postures to this CSV file; with --strategy all the strategy's name goes before the extension");
+  cli.add_option("--trace-period", a.trace_period, "seconds between rows of the trace")->check(CLI::Range(1e-4, 10.0));
+  cli.add_option("--report", a.report, "write the report to this JSON file");
+  cli.add_option("--seed", a.seed, "of the simulated controllers' latencies and speeds");
+  cli.add_flag("--json", a.json, "print the report as JSON instead of a summary");
+  app::add_common(cli);
+  return app::parse(cli, argc, argv);
+}
+
+std::string with_strategy(const std::string& file, const std::string& strategy) {
+  const auto slash = file.find_last_of('/');
+  const auto dot = file.find_last_of('.');
+  const bool has_extension = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+  return has_extension ? file.substr(0, dot) + "." + strategy + file.substr(dot) : file + "." + strategy;
+}
+
+double elapsed_seconds() {
+  static const auto begin = std::chrono::steady_clock::now();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// A line on a terminal's stderr at most every two seconds.
+void show_progress(double t, std::size_t finished, std::size_t all) {
+  static double last = 0;
+  if (elapsed_seconds() < last + 2 || isatty(STDERR_FILENO) == 0) return;
+  last = elapsed_seconds();
+  fmt::print(stderr, "{} of {} commands at {:.1f} s of virtual time\n", finished, all, t);
+}
+
+bool write_file(const std::string& path, const std::string& text) {
+  std::ofstream out{path};
+  out << text << '\n';
+  out.close();
+  if (!out) fmt::print(stderr, "{}: cannot be written\n", path);
+  return static_cast<bool>(out);
+}
+
+ExitCode judge(const std::vector<app::RunReport>& reports) {
+  bool collision = false;
+  bool unserved = false;
+  for (const auto& r : reports) {
+    collision = collision || (r.collisions && *r.collisions > 0);
+    unserved = unserved || r.completed < r.submitted;
+  }
+  return collision ? ExitCode::collision : unserved ? ExitCode::unserved : ExitCode::ok;
+}
+
+ExitCode run(const Arguments& a) {
+  auto loaded = app::load_cell(a.cell);
+  if (!loaded) {
+    fmt::print(stderr, "{}\n", to_string(loaded.error()));
+    return ExitCode::bad_input;
+  }
+  auto cell = std::make_shared<const model::Cell>(std::move(loaded->cell));
+  const auto program = app::load_program(a.program, cell.get());
+  if (!program) {
+    fmt::print(stderr, "{}\n", to_string(program.error()));
+    return ExitCode::bad_input;
+  }
+  const std::string wanted = a.strategy.empty() ? cell->planning.strategy : a.strategy;
+  std::vector<std::string> strategies;
+  for (const auto name : core::strategy_names()) {
+    if (wanted == "all" || wanted == name) strategies.emplace_back(name);
+  }
+  if (strategies.empty()) {
+    fmt::print(stderr, "--strategy: found \"{}\", expected one of: all {}\n", wanted, fmt::join(core::strategy_names(), " "));
+    return ExitCode::bad_input;
+  }
+
+  std::vector<app::RunReport> reports;
+  for (const std::string& strategy : strategies) {
+    sim::VirtualOptions options;
+    options.strategy = strategy;
+    options.seed = a.seed;
+    options.trace_period = a.trace_period;
+    options.stopwatch = elapsed_seconds;
+    options.progress = show_progress;
+    std::ofstream trace_file;
+    std::optional<sim::TraceWriter> trace;
+    if (!a.trace.empty()) {
+      const std::string path = wanted == "all" ? with_strategy(a.trace, strategy) : a.trace;
+      trace_file.open(path);
+      if (!trace_file) {
+        fmt::print(stderr, "{}: cannot be written\n", path);
+        return ExitCode::bad_input;
+      }
+      options.trace = &trace.emplace(trace_file);
+    }
+    reports.push_back(sim::run_virtual(cell, *program, options));
+    if (!a.json) std::cout << summary(reports.back()) << std::flush;
+    trace_file.close();
+    if (!a.trace.empty() && !trace_file) {
+      fmt::print(stderr, "the trace could not be written completely\n");
+      return ExitCode::fault;
+    }
+  }
+  nlohmann::json json = nlohmann::json::array();
+  for (const auto& r : reports) json.push_back(to_json(r));
+  if (a.json) std::cout << json.dump(2) << '\n';
+  if (!a.report.empty() && !write_file(a.report, json.dump(2))) return ExitCode::fault;
+  return judge(reports);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    Arguments arguments;
+    if (const auto code = parse(argc, argv, arguments)) return app::to_int(*code);
+    return app::to_int(run(arguments));
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "interlace-sim: {}\n", e.what());
+    return app::to_int(ExitCode::fault);
+  }
+}

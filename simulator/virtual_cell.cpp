@@ -1,0 +1,240 @@
+#include "simulator/virtual_cell.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <limits>
+#include <variant>
+
+#include "monitor/clearance_observer.hpp"
+#include "robot_proxy/drivers/sim/sim_controller.hpp"
+#include "robot_proxy/executor.hpp"
+
+namespace interlace::sim {
+
+using model::Instant;
+using proxy::LocalTime;
+
+namespace {
+
+/// In virtual time the proxies' clocks and the planner's show the same.
+LocalTime local(Instant t) { return LocalTime{t.time_since_epoch()}; }
+Instant planner_time(LocalTime t) { return Instant{t.time_since_epoch()}; }
+proxy::Moment moment(Instant t) { return {local(t), proxy::ClockEstimate{}}; }
+
+/// One robot with its controller and the proxy's decisions.
+struct VirtualRobot {
+  VirtualRobot(const model::Robot& r, std::uint64_t seed) : robot(r), controller(r, options(seed)), executor(r.name, controller.capabilities()) {}
+
+  static proxy::SimOptions options(std::uint64_t seed) {
+    proxy::SimOptions o;
+    o.seed = seed;
+    return o;
+  }
+
+  const model::Robot& robot;
+  proxy::SimController controller;
+  proxy::Executor executor;
+};
+
+using Message = std::variant<model::CommandSubmitted, model::PostureReported, model::ExecutionReported, model::Dispatch, model::Withdrawal>;
+
+struct Release {
+  Instant at;
+  model::CommandSubmitted command;
+};
+
+/// Commands in the order of their release, robots in turn where several come at once.
+std::deque<Release> releases_of(const model::Program& program) {
+  std::vector<Release> all;
+  std::size_t longest = 0;
+  for (const auto& [robot, steps] : program.robots) longest = std::max(longest, steps.size());
+  for (std::size_t i = 0; i < longest; ++i) {
+    for (const auto& [robot, steps] : program.robots) {
+      if (i >= steps.size()) continue;
+      model::CommandSubmitted c;
+      c.id = model::CommandId{fmt::format("{}-{}", robot.str(), i + 1)};
+      c.robot = robot;
+      c.motion = steps[i].motion;
+      c.priority = steps[i].priority;
+      all.push_back({model::at_seconds(steps[i].at), std::move(c)});
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Release& a, const Release& b) { return a.at < b.at; });
+  return {all.begin(), all.end()};
+}
+
+class World {
+ public:
+  World(std::shared_ptr<const model::Cell> cell, const model::Program& program, const VirtualOptions& options)
+      : cell_(std::move(cell)),
+        options_(options),
+        planner_(cell_, planner_options()),
+        observer_(*cell_, options.check_period, std::numeric_limits<double>::infinity()),
+        collector_(Instant{}),
+        releases_(releases_of(program)),
+        total_(releases_.size()) {
+    for (const model::Robot& robot : cell_->robots) robots_.push_back(std::make_unique<VirtualRobot>(robot, options.seed + robots_.size()));
+  }
+
+  app::RunReport run() {
+    for (auto& r : robots_) look_at(*r);
+    deliver();
+    while (const auto next = next_instant()) {
+      watch_until(*next);
+      now_ = std::max(now_, *next);
+      step();
+      if (options_.progress) options_.progress(model::to_seconds(now_), total_ - releases_.size() - collector_.open(), total_);
+      if (releases_.empty() && collector_.all_final()) break;
+    }
+    watch_until(now_ + model::from_seconds(options_.trace_period));
+    app::RunReport report = collector_.finish(options_.strategy);
+    report.collisions = observer_.contacts();
+    if (const auto least = observer_.least()) report.least_clearance = least->least;
+    if (options_.stopwatch) {
+      report.map_build = app::statistics_of(planner_.maps().take_build_times());
+      report.decision = app::statistics_of(std::move(decision_times_));
+    }
+    return report;
+  }
+
+ private:
+  core::PlannerOptions planner_options() const {
+    core::PlannerOptions o;
+    o.strategy = options_.strategy;
+    o.lead = model::from_seconds(cell_->planning.lead.value_or(0));
+    o.confirm = o.lead;
+    o.start_tolerance = model::from_seconds(cell_->planning.start_tolerance.value_or(0));
+    o.queue_limit = std::numeric_limits<std::size_t>::max();
+    o.stopwatch = options_.stopwatch;
+    return o;
+  }
+
+  [[nodiscard]] std::optional<Instant> next_instant() const {
+    std::optional<Instant> next;
+    const auto consider = [&](const std::optional<Instant>& t) {
+      if (t) next = next ? std::min(*next, *t) : *t;
+    };
+    if (!releases_.empty()) consider(releases_.front().at);
+    consider(planner_.next_deadline());
+    for (const auto& r : robots_) {
+      if (const auto t = r->controller.next_event(local(now_))) consider(planner_time(*t));
+      if (const auto t = r->executor.next_event(proxy::ClockEstimate{})) consider(planner_time(*t));
+    }
+    return next;
+  }
+
+  void step() {
+    for (auto& r : robots_) look_at(*r);
+    deliver();
+    for (auto& r : robots_) act(*r, r->executor.advance(moment(now_)));
+    deliver();
+    while (!releases_.empty() && releases_.front().at <= now_) {
+      collector_.on_submitted(releases_.front().command.id, releases_.front().command.robot, model::to_seconds(releases_.front().at));
+      mail_.emplace_back(std::move(releases_.front().command));
+      releases_.pop_front();
+    }
+    deliver();
+    decide([&] { return planner_.advance(now_); });
+    deliver();
+  }
+
+  /// The proxy reads its controller, as it does at every change, and says where the robot is.
+  void look_at(VirtualRobot& r) {
+    const auto seen = r.controller.observe(local(now_));
+    act(r, r.executor.on(seen, moment(now_)));
+    model::PostureReported posture;
+    posture.robot = r.robot.name;
+    posture.at = now_;
+    posture.joints = seen.joints;
+    posture.X_WT = seen.X_WT;
+    posture.moving = seen.moving;
+    posture.ready = seen.ready;
+    if (const auto* id = r.executor.running()) posture.motion = *id;
+    mail_.emplace_back(std::move(posture));
+  }
+
+  void act(VirtualRobot& r, const proxy::Actions& actions) {
+    for (const auto& report : actions.reports) mail_.emplace_back(report);
+    if (actions.stop) (void)r.controller.stop(local(now_));
+    if (!actions.start) return;
+    if (const auto taken = r.controller.execute(actions.start->request, actions.start->number, local(now_)); !taken) {
+      act(r, r.executor.refused_by_controller(actions.start->number, taken.error(), moment(now_)));
+      return;
+    }
+    ids_[cell_->find(r.robot.name).value()] = actions.start->id.str();
+    act(r, r.executor.on(r.controller.observe(local(now_)), moment(now_)));
+  }
+
+  template <typename Call>
+  void decide(const Call& call) {
+    const double before = options_.stopwatch ? options_.stopwatch() : 0;
+    core::Decisions d = call();
+    if (options_.stopwatch) decision_times_.push_back(options_.stopwatch() - before);
+    for (const auto& s : d.statuses) collector_.on_status(s);
+    for (auto& x : d.withdrawals) mail_.emplace_back(std::move(x));
+    for (auto& x : d.dispatches) mail_.emplace_back(std::move(x));
+  }
+
+  VirtualRobot& proxy_of(const model::RobotName& name) { return *robots_[cell_->find(name).value()]; }
+
+  void deliver() {
+    while (!mail_.empty()) {
+      const Message message = std::move(mail_.front());
+      mail_.pop_front();
+      if (const auto* d = std::get_if<model::Dispatch>(&message)) {
+        VirtualRobot& r = proxy_of(d->robot);
+        act(r, r.executor.on(*d, moment(now_)));
+      } else if (const auto* w = std::get_if<model::Withdrawal>(&message)) {
+        VirtualRobot& r = proxy_of(w->robot);
+        act(r, r.executor.on(*w, moment(now_)));
+      } else if (const auto* c = std::get_if<model::CommandSubmitted>(&message)) {
+        decide([&] { return planner_.on(*c, now_); });
+      } else if (const auto* p = std::get_if<model::PostureReported>(&message)) {
+        decide([&] { return planner_.on(*p, now_); });
+      } else if (const auto* e = std::get_if<model::ExecutionReported>(&message)) {
+        decide([&] { return planner_.on(*e, now_); });
+      }
+    }
+  }
+
+  /// Feeds trace and observer with what happens up to `until`.
+  void watch_until(Instant until) {
+    const double end = model::to_seconds(until);
+    for (; checked_ * options_.check_period < end; ++checked_) {
+      const double t = checked_ * options_.check_period;
+      for (std::size_t i = 0; i < robots_.size(); ++i) observer_.on_posture(i, t, robots_[i]->controller.observe(local(model::at_seconds(t))).joints);
+    }
+    if (!options_.trace) return;
+    for (; traced_ * options_.trace_period < end; ++traced_) {
+      const double t = traced_ * options_.trace_period;
+      for (std::size_t i = 0; i < robots_.size(); ++i) {
+        const auto seen = robots_[i]->controller.observe(local(model::at_seconds(t)));
+        options_.trace->row(t, robots_[i]->robot, seen.joints, seen.moving ? ids_[i] : std::string{});
+      }
+    }
+  }
+
+  std::shared_ptr<const model::Cell> cell_;
+  const VirtualOptions& options_;
+  core::Planner planner_;
+  monitor::ClearanceObserver observer_;
+  app::ReportCollector collector_;
+  std::vector<std::unique_ptr<VirtualRobot>> robots_;
+  std::map<std::size_t, std::string> ids_;  // command each robot was last started with
+  std::deque<Release> releases_;
+  std::size_t total_;
+  std::deque<Message> mail_;
+  std::vector<double> decision_times_;
+  Instant now_{};
+  double checked_ = 0, traced_ = 0;  // steps done
+};
+
+}  // namespace
+
+app::RunReport run_virtual(std::shared_ptr<const model::Cell> cell, const model::Program& program, const VirtualOptions& options) {
+  return World{std::move(cell), program, options}.run();
+}
+
+}  // namespace interlace::sim
