@@ -129,7 +129,10 @@ void PlannerNode::take_posture(Link& link, const dds::PostureMessage& m) {
     }
     return;
   }
-  if (!link.proxy || link.proxy->incarnation != m.proxy_incarnation) log(LogLevel::info, "proxy_heard", {{"robot", link.robot.str()}});
+  if (!link.proxy || link.proxy->incarnation != m.proxy_incarnation) {
+    log(LogLevel::info, "proxy_heard", {{"robot", link.robot.str()}});
+    state_changed_ = true;
+  }
   link.proxy = ProxyEcho{m.proxy_incarnation, m.proxy_sent, t};
   model::PostureReported posture = m.posture;
   if (m.planner_incarnation != incarnation_) posture.at = t;  // the proxy does not know our time yet
