@@ -1,0 +1,84 @@
+#include "common/app/config/clearance_check.hpp"
+
+#include <fmt/format.h>
+
+#include "common/model/segment_distance.hpp"
+
+namespace interlace::app {
+
+namespace {
+
+using model::Capsule;
+
+double clearance(const Capsule& a, const Capsule& b) {
+  return model::segment_distance(a.a, a.b, b.a, b.b) - a.radius - b.radius;
+}
+
+/// One robot standing somewhere.
+struct Standing {
+  const model::Robot* robot;
+  const Field* field;
+  std::vector<Capsule> capsules;
+
+  [[nodiscard]] std::string link(std::size_t capsule) const { return robot->name.str() + "." + robot->model.capsules[capsule].name; }
+};
+
+Standing stand(const model::Robot& robot, const model::Joints& q, const Field& field) {
+  Standing standing{&robot, &field, {}};
+  model::place_capsules(robot.model, robot.X_WB, q, standing.capsules);
+  return standing;
+}
+
+/// These tell whether there was nothing to complain about.
+bool check_self(const Standing& s, const Units& units) {
+  for (const auto& [i, j] : s.robot->model.self_pairs) {
+    const double d = clearance(s.capsules[i], s.capsules[j]);
+    if (d > 0) continue;
+    s.field->refuse(fmt::format("collides with itself: clearance of {} and {} would be {}, expected > 0", s.link(i), s.link(j),
+                                show(d, coordinate(units))));
+    return false;
+  }
+  return true;
+}
+
+bool check_pair(const Standing& a, const Standing& b, double margin, const Units& units) {
+  std::size_t worst_i = 0;
+  std::size_t worst_j = 0;
+  double least = margin + 1;
+  for (std::size_t i = 0; i < a.capsules.size(); ++i) {
+    for (std::size_t j = 0; j < b.capsules.size(); ++j) {
+      const double d = clearance(a.capsules[i], b.capsules[j]);
+      if (d >= least) continue;
+      least = d;
+      worst_i = i;
+      worst_j = j;
+    }
+  }
+  if (least > margin) return true;
+  b.field->refuse(fmt::format("in collision with {}: clearance of {} and {} would be {}, expected > {}", a.field->key(), b.link(worst_j),
+                              a.link(worst_i), show(least, coordinate(units)), show(margin, coordinate(units))));
+  return false;
+}
+
+bool check_all(const std::vector<Standing>& standing, double margin, const Units& units) {
+  bool clear = true;
+  for (const auto& s : standing) clear = check_self(s, units) && clear;
+  for (std::size_t i = 0; i < standing.size(); ++i) {
+    for (std::size_t j = i + 1; j < standing.size(); ++j) clear = check_pair(standing[i], standing[j], margin, units) && clear;
+  }
+  return clear;
+}
+
+}  // namespace
+
+void check_clearances(const std::vector<PlacedRobot>& robots, double margin, const Units& units) {
+  std::vector<Standing> starts;
+  std::vector<Standing> homes;
+  for (const auto& placed : robots) {
+    starts.push_back(stand(placed.robot, placed.robot.start, placed.start));
+    homes.push_back(stand(placed.robot, placed.robot.home, placed.home));
+  }
+  if (check_all(starts, margin, units)) check_all(homes, margin, units);  // homes are starts by default: do not complain twice
+}
+
+}  // namespace interlace::app

@@ -1,0 +1,107 @@
+#include "common/app/config/fingerprint.hpp"
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+namespace interlace::app {
+
+namespace {
+
+using model::Joints;
+using model::Pose;
+
+/// Writes values as text, one after the other, so that no two different cells write the same.
+class Canonical {
+ public:
+  void text(std::string_view value) { text_ += std::to_string(value.size()).append(":").append(value).append(";"); }
+  void number(double value) { text_ += std::to_string(std::llround(value * 1e9)).append(";"); }
+  void count(std::size_t value) { text_ += std::to_string(value).append(";"); }
+  void maybe(const std::optional<double>& value) {
+    count(value ? 1 : 0);
+    if (value) number(*value);
+  }
+  template <typename Vector>
+  void numbers(const Vector& values) {
+    for (Eigen::Index i = 0; i < values.size(); ++i) number(values[i]);
+  }
+  void maybe(const std::optional<Joints>& value) {
+    count(value ? 1 : 0);
+    if (value) numbers(*value);
+  }
+  void pose(const Pose& X) {
+    numbers(model::Vector3{X.translation()});
+    for (Eigen::Index i = 0; i < 3; ++i) numbers(model::Vector3{X.linear().col(i)});
+  }
+
+  [[nodiscard]] const std::string& str() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+void write(const model::RobotModel& model, Canonical& out) {
+  const auto& p = model.kinematics.parameters();
+  for (const double value : {p.a1, p.a2, p.b, p.c1, p.c2, p.c3, p.c4}) out.number(value);
+  for (const double offset : p.offsets) out.number(offset);
+  for (const int sign : p.signs) out.number(sign);
+  out.numbers(model.joints.min);
+  out.numbers(model.joints.max);
+  out.maybe(model.joints.velocity);
+  out.maybe(model.joints.acceleration);
+  out.pose(model.X_FT);
+  out.count(model.capsules.size());
+  for (const auto& capsule : model.capsules) {
+    out.text(capsule.name);
+    out.count(capsule.link);
+    out.numbers(capsule.a);
+    out.numbers(capsule.b);
+    out.number(capsule.radius);
+  }
+  out.count(model.self_pairs.size());
+  for (const auto& [i, j] : model.self_pairs) {
+    out.count(i);
+    out.count(j);
+  }
+}
+
+void write(const model::Robot& robot, Canonical& out) {
+  out.text(robot.name.str());
+  write(robot.model, out);
+  out.pose(robot.X_WB);
+  out.numbers(robot.start);
+  out.numbers(robot.home);
+  out.number(robot.tcp.velocity);
+  out.number(robot.tcp.acceleration);
+  out.maybe(robot.tcp.angular_velocity);
+  out.maybe(robot.tcp.angular_acceleration);
+  out.number(robot.controller.start_latency);
+  out.number(robot.controller.start_jitter);
+  out.number(robot.controller.speed_error);
+}
+
+std::uint64_t fnv1a(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3U;
+  }
+  return hash;
+}
+
+}  // namespace
+
+std::uint64_t fingerprint(const model::Cell& cell) {
+  Canonical out;
+  out.text(cell.name);
+  out.count(cell.robots.size());
+  for (const auto& robot : cell.robots) write(robot, out);
+  out.number(cell.planning.resolution);
+  out.number(cell.planning.margin);
+  out.text(cell.planning.strategy);
+  out.maybe(cell.planning.lead);
+  out.maybe(cell.planning.start_tolerance);
+  return fnv1a(out.str());
+}
+
+}  // namespace interlace::app

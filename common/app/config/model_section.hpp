@@ -1,0 +1,13 @@
+#pragma once
+
+#include <optional>
+
+#include "common/app/config/field.hpp"
+#include "common/model/robot_model.hpp"
+
+namespace interlace::app {
+
+/// One entry under `models`.
+[[nodiscard]] std::optional<model::RobotModel> read_model(const std::string& name, const Field& field, const Units& units);
+
+}  // namespace interlace::app

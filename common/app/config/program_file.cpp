@@ -1,0 +1,139 @@
+#include "common/app/config/program_file.hpp"
+
+#include <algorithm>
+
+#include "common/app/config/document.hpp"
+#include "common/app/config/pose_section.hpp"
+#include "common/app/config/preamble.hpp"
+
+namespace interlace::app {
+
+namespace {
+
+using Names = std::vector<model::RobotName>;
+using model::Program;
+using model::ProgramStep;
+
+constexpr int kLargestPriority = 1'000'000;
+constexpr double kLatestRelease = 1e6;  // [s]
+
+std::optional<model::Target> read_target(const Mapping& step, const Units& units) {
+  const auto move = step.require("move");
+  const auto to = step.require("to");
+  const auto kind = move ? move->one_of({"linear", "joint"}) : std::nullopt;
+  if (!kind || !to) return std::nullopt;
+  if (*kind == 0) {
+    const auto X_WT = read_pose(*to, units);
+    return X_WT ? std::optional<model::Target>{model::LinearTarget{*X_WT}} : std::nullopt;
+  }
+  const auto mapping = to->mapping({"joints"});
+  const auto joints = mapping ? mapping->require("joints") : std::nullopt;
+  const auto q = joints ? joints->joints(angle(units)) : std::nullopt;
+  return q ? std::optional<model::Target>{model::JointTarget{*q}} : std::nullopt;
+}
+
+/// A step with findings comes back incomplete; the caller sees the findings.
+ProgramStep read_step(const Field& field, const Units& units) {
+  ProgramStep step;
+  const auto mapping = field.mapping({"move", "to", "velocity", "acceleration", "priority", "at"});
+  if (!mapping) return step;
+  step.motion.target = read_target(*mapping, units).value_or(model::Target{});
+  if (const auto velocity = mapping->find("velocity")) step.motion.velocity = velocity->number(speed(units));
+  if (const auto value = mapping->find("acceleration")) step.motion.acceleration = value->number(acceleration(units));
+  if (const auto priority = mapping->find("priority")) step.priority = priority->integer(-kLargestPriority, kLargestPriority).value_or(0);
+  if (const auto at = mapping->find("at")) step.at = at->number(seconds(kLatestRelease)).value_or(0);
+  return step;
+}
+
+void check_robot(const std::string& name, const Field& entry, const Names* robots) {
+  if (!model::is_valid_name(name)) entry.complain("the name of a robot is 1 to 64 letters, digits, '_', '-', '.' or ':'");
+  if (!robots || std::find(robots->begin(), robots->end(), model::RobotName{name}) != robots->end()) return;
+  std::vector<std::string> names;
+  for (const auto& robot : *robots) names.push_back(robot.str());
+  entry.complain("unknown robot \"" + name.substr(0, model::kMaxNameLength) + "\", the cell has " + listed(names) +
+                 did_you_mean(name, names));
+}
+
+Program read_robots(const Field& field, const Names* robots, const Units& units) {
+  Program program;
+  const auto mapping = field.mapping({});
+  if (!mapping) return program;
+  for (const auto& [name, entry] : mapping->entries()) {
+    check_robot(name, entry, robots);
+    auto& steps = program.robots.emplace_back(model::RobotName{name}, std::vector<ProgramStep>{}).second;
+    const auto items = entry.items("commands");
+    if (!items) continue;
+    for (const auto& item : *items) steps.push_back(read_step(item, units));
+  }
+  return program;
+}
+
+void unroll(Program& program, int repeat) {
+  for (auto& entry : program.robots) {
+    auto& steps = entry.second;
+    const std::size_t once = steps.size();
+    steps.reserve(once * static_cast<std::size_t>(repeat));
+    for (std::size_t i = once; i < once * static_cast<std::size_t>(repeat); ++i) steps.push_back(steps[i - once]);
+  }
+}
+
+Program read_program(const YAML::Node& document, const Names* robots, Findings& findings) {
+  const auto file = Field{document, "", findings}.mapping({"interlace", "units", "repeat", "program"});
+  if (!file) return {};
+  const Units units = read_preamble(*file);
+  const auto repeat_field = file->find("repeat");
+  const int repeat = repeat_field ? repeat_field->integer(1, kMaxProgramSize).value_or(1) : 1;
+  const auto field = file->require("program");
+  if (!field) return {};
+  Program program = read_robots(*field, robots, units);
+  if (!findings.none()) return program;
+  if (program.size() == 0) field->refuse("empty program: expected at least one command");
+  if (program.size() * static_cast<std::size_t>(repeat) > static_cast<std::size_t>(kMaxProgramSize)) {
+    repeat_field.value_or(*field).refuse("expected at most " + std::to_string(kMaxProgramSize) + " commands in all");
+    return program;
+  }
+  unroll(program, repeat);
+  return program;
+}
+
+model::Result<Program, ConfigError> parse(const std::string& text, const std::string& file_name, const Names* robots) {
+  Findings findings{file_name};
+  const auto document = parse_document(text, findings);
+  if (!document) return model::unexpected{findings.error()};
+  Program program = read_program(*document, robots, findings);
+  if (!findings.none()) return model::unexpected{findings.error()};
+  return program;
+}
+
+Names names_of(const model::Cell& cell) {
+  Names names;
+  for (const auto& robot : cell.robots) names.push_back(robot.name);
+  return names;
+}
+
+}  // namespace
+
+model::Result<Program, ConfigError> parse_program(const std::string& text, const std::string& file_name, const Names& robots) {
+  return parse(text, file_name, &robots);
+}
+
+model::Result<Program, ConfigError> parse_program(const std::string& text, const std::string& file_name, const model::Cell* cell) {
+  if (!cell) return parse(text, file_name, nullptr);
+  return parse_program(text, file_name, names_of(*cell));
+}
+
+model::Result<Program, ConfigError> load_program(const std::string& path, const Names& robots) {
+  Findings findings{path};
+  const auto text = read_file(path, findings);
+  if (!text) return model::unexpected{findings.error()};
+  return parse_program(*text, path, robots);
+}
+
+model::Result<Program, ConfigError> load_program(const std::string& path, const model::Cell* cell) {
+  Findings findings{path};
+  const auto text = read_file(path, findings);
+  if (!text) return model::unexpected{findings.error()};
+  return parse_program(*text, path, cell);
+}
+
+}  // namespace interlace::app
