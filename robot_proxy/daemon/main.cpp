@@ -4,8 +4,8 @@
 
 #include "common/app/command_line.hpp"
 #include "common/app/signals.hpp"
-#include "robot_proxy/drivers/sim/sim_driver.hpp"
 #include "robot_proxy/daemon/proxy_node.hpp"
+#include "robot_proxy/drivers/sim/sim_driver.hpp"
 
 using namespace interlace;
 using app::ExitCode;

@@ -41,7 +41,9 @@ ProxyNode::ProxyNode(const app::LoadedCell& cell, model::RobotIndex robot, std::
   log(LogLevel::info, "ready", {{"cell", cell.cell.name}, {"robot", robot_.str()}, {"domain", domain}});
 }
 
-ProxyNode::~ProxyNode() { driver_->disconnect(); }
+ProxyNode::~ProxyNode() {
+  driver_->disconnect();
+}
 
 void ProxyNode::stop() {
   ++stops_;
@@ -91,7 +93,8 @@ bool ProxyNode::obeys(const dds::DispatchMessage& m) {
   }
   if (stranger_logged_ != m.planner_incarnation) {
     log(LogLevel::error, "planner_ignored",
-        {{"robot", robot_.str()}, {"why", same_cell ? "another planner of this cell is in charge" : "its cell file differs from the proxy's"}});
+        {{"robot", robot_.str()},
+         {"why", same_cell ? "another planner of this cell is in charge" : "its cell file differs from the proxy's"}});
     stranger_logged_ = m.planner_incarnation;
   }
   return false;
@@ -118,7 +121,8 @@ void ProxyNode::take_orders() {
   });
   if (orders_.counters().refused != refusals_logged_) {
     refusals_logged_ = orders_.counters().refused;
-    log(LogLevel::warning, "sample_refused", {{"topic", orders_.name()}, {"total", refusals_logged_}, {"last", orders_.counters().last_refusal}});
+    log(LogLevel::warning, "sample_refused",
+        {{"topic", orders_.name()}, {"total", refusals_logged_}, {"last", orders_.counters().last_refusal}});
   }
 }
 
@@ -132,15 +136,20 @@ void ProxyNode::carry_out(const Actions& actions) {
   }
   if (actions.stop) {
     log(LogLevel::error, "stopping_controller", {{"robot", robot_.str()}});
-    if (const auto stopped = driver_->stop(); !stopped) log(LogLevel::error, "not_stopped", {{"robot", robot_.str()}, {"why", stopped.error()}});
+    if (const auto stopped = driver_->stop(); !stopped)
+      log(LogLevel::error, "not_stopped", {{"robot", robot_.str()}, {"why", stopped.error()}});
   }
   for (const auto& report : actions.reports) {
     if (!executions_.write({planner_ ? planner_->incarnation : 0, incarnation_, report})) {
       log(LogLevel::error, "not_sent", {{"topic", executions_.name()}, {"why", executions_.last_refusal()}});
     }
     log(LogLevel::info, model::to_string(report.state),
-        {{"robot", robot_.str()}, {"command", report.id.str()}, {"attempt", report.attempt}, {"at_s", model::to_seconds(report.at)},
-         {"uncertainty_ms", 1e3 * report.uncertainty}, {"text", report.text}});
+        {{"robot", robot_.str()},
+         {"command", report.id.str()},
+         {"attempt", report.attempt},
+         {"at_s", model::to_seconds(report.at)},
+         {"uncertainty_ms", 1e3 * report.uncertainty},
+         {"text", report.text}});
   }
 }
 
