@@ -1,0 +1,265 @@
+#include "app_client/ledger.hpp"
+
+#include <algorithm>
+
+namespace interlace::client {
+
+using model::CommandState;
+using model::Reason;
+
+namespace {
+
+/// Saying it again would tell nobody anything new.
+bool same_news(const model::CommandStatus& a, const model::CommandStatus& b) {
+  return a.state == b.state && a.reason == b.reason && a.text == b.text && a.start == b.start && a.end == b.end;
+}
+
+std::string seconds_text(LocalDuration d) {
+  return std::to_string(std::chrono::duration_cast<std::chrono::seconds>(d).count()) + " s";
+}
+
+constexpr const char* kPlannerReplaced = "the planner was restarted; whether this was carried out is not known";
+constexpr const char* kNotSent = "not sent: a command before it was lost";
+
+}  // namespace
+
+Ledger::Entry& Ledger::enter(const Request& request, const model::CommandId& id, const model::RobotName& robot) {
+  Entry entry;
+  entry.request = request;
+  entry.answer.status.id = id;
+  entry.answer.status.robot = robot;
+  return entries_.emplace(id, std::move(entry)).first->second;
+}
+
+bool Ledger::submit(const model::CommandSubmitted& command) {
+  if (entries_.count(command.id) > 0) return false;
+  enter(command, command.id, command.robot);
+  lines_[command.robot].unsent.push_back(command.id);
+  return true;
+}
+
+void Ledger::cancel(const model::RobotName& robot, const model::CommandId& id) {
+  const model::CommandCancelled request{id, robot};
+  const auto found = entries_.find(id);
+  if (found == entries_.end()) {
+    enter(request, id, robot);
+  } else {
+    if (model::is_final(found->second.answer.status.state)) return;
+    if (std::holds_alternative<model::CommandSubmitted>(found->second.request) && !found->second.sent) {
+      close(id, CommandState::cancelled, Reason::on_request, "given up before it was sent");
+      return;
+    }
+  }
+  orders_.emplace(id, Order{request, std::nullopt});
+}
+
+bool Ledger::stop(const model::StopRequested& request) {
+  if (entries_.count(request.id) > 0) return false;
+  const auto line = lines_.find(request.robot);
+  while (line != lines_.end() && !line->second.unsent.empty()) {
+    close(model::CommandId{line->second.unsent.back()}, CommandState::cancelled, Reason::on_request, "given up before it was sent");
+  }
+  enter(request, request.id, request.robot);
+  orders_.emplace(request.id, Order{request, std::nullopt});
+  return true;
+}
+
+void Ledger::refuse(const model::CommandId& id, const std::string& text) {
+  close(id, CommandState::rejected, Reason::bad_request, text);
+}
+
+/// The client's own last word on a command.
+void Ledger::close(const model::CommandId& id, CommandState state, Reason reason, std::string text) {
+  orders_.erase(id);
+  const auto found = entries_.find(id);
+  if (found == entries_.end() || model::is_final(found->second.answer.status.state)) return;
+  Answer& answer = found->second.answer;
+  remove_from_line(answer.status.robot, id);
+  answer.told = false;
+  answer.status.state = state;
+  answer.status.reason = reason;
+  answer.status.text = std::move(text);
+  answer.status.conflicts.clear();
+  news_.push_back(answer);
+}
+
+void Ledger::remove_from_line(const model::RobotName& robot, const model::CommandId& id) {
+  const auto found = lines_.find(robot);
+  if (found == lines_.end()) return;
+  Line& line = found->second;
+  if (line.asked == id) line.asked.reset();
+  for (auto* queue : {&line.told, &line.unsent}) {
+    const auto at = std::find(queue->begin(), queue->end(), id);
+    if (at != queue->end()) queue->erase(at);
+  }
+}
+
+void Ledger::lose_everything() {
+  std::vector<model::CommandId> lost;
+  for (const auto& [robot, line] : lines_) {
+    lost.insert(lost.end(), line.told.begin(), line.told.end());
+    if (line.asked) lost.push_back(*line.asked);
+    lost.insert(lost.end(), line.unsent.begin(), line.unsent.end());
+  }
+  for (const auto& [id, order] : orders_) lost.push_back(id);
+  for (const auto& id : lost) {
+    const auto found = entries_.find(id);
+    const bool sent = found != entries_.end() && (found->second.sent || orders_.count(id) > 0);
+    close(id, CommandState::failed, Reason::unknown_id, sent ? kPlannerReplaced : kNotSent);
+  }
+}
+
+bool Ledger::on_planner(std::uint64_t incarnation, LocalTime now) {
+  if (replaced_.count(incarnation) > 0) return false;
+  if (planner_ != 0 && planner_ != incarnation) {
+    replaced_.insert(planner_);
+    lose_everything();
+  }
+  planner_ = incarnation;
+  planner_heard_ = now;
+  return true;
+}
+
+void Ledger::on_status(std::uint64_t incarnation, const model::CommandStatus& status, LocalTime now) {
+  if (!on_planner(incarnation, now)) return;
+  const auto found = entries_.find(status.id);
+  if (found == entries_.end()) {
+    news_.push_back({status, false, true});
+    return;
+  }
+  Entry& entry = found->second;
+  entry.heard = now;
+  const bool was_final = model::is_final(entry.answer.status.state);
+  // A cancellation is answered by the end of its command, or by its start: then it came too late. A stop is answered at once.
+  if (model::is_final(status.state) || status.state == CommandState::started) orders_.erase(status.id);
+  if (was_final) return;
+  if (Line& line = lines_[status.robot]; line.asked == status.id) {
+    line.asked.reset();
+    line.told.push_back(status.id);
+  }
+  if (entry.answer.told && same_news(entry.answer.status, status)) return;
+  entry.answer.status = status;
+  entry.answer.told = true;
+  if (model::is_final(status.state)) remove_from_line(status.robot, status.id);
+  news_.push_back(entry.answer);
+}
+
+bool Ledger::resend(Sending& sent, LocalTime now, bool lives) const {
+  if (!lives || now - sent.last < patience_.resend) return false;
+  sent.last = now;
+  return true;
+}
+
+void Ledger::give_up_orders(LocalTime now) {
+  std::vector<model::CommandId> lost;
+  for (const auto& [id, order] : orders_) {
+    if (order.sent && now - order.sent->first >= patience_.give_up) lost.push_back(id);
+  }
+  for (const auto& id : lost) {
+    const auto entry = entries_.find(id);
+    orders_.erase(id);
+    // A command of this client outlives the failed attempt to cancel it.
+    if (entry == entries_.end() || std::holds_alternative<model::CommandSubmitted>(entry->second.request)) continue;
+    close(id, CommandState::failed, Reason::unknown_id, "the planner did not answer within " + seconds_text(patience_.give_up));
+  }
+}
+
+void Ledger::give_up_unanswered(Line& line, LocalTime now) {
+  if (!line.asked) return;
+  const auto& sent = entries_.at(*line.asked).sent;
+  if (!sent || now - sent->first < patience_.give_up) return;
+  close(model::CommandId{*line.asked}, CommandState::failed, Reason::unknown_id,
+        "the planner did not answer within " + seconds_text(patience_.give_up) + "; whether it is carried out is not known");
+  while (!line.unsent.empty()) close(model::CommandId{line.unsent.front()}, CommandState::failed, Reason::unknown_id, kNotSent);
+}
+
+std::vector<Request> Ledger::due(LocalTime now) {
+  looked_ = now;
+  std::vector<Request> out;
+  give_up_orders(now);
+  for (auto& [robot, line] : lines_) give_up_unanswered(line, now);
+  const bool lives = planner_lives(now);
+  if (!lives) return out;
+  for (auto& [id, order] : orders_) {
+    if (!order.sent) {
+      order.sent = Sending{now, now};
+      out.push_back(order.request);
+    } else if (resend(*order.sent, now, lives)) {
+      out.push_back(order.request);
+    }
+  }
+  for (auto& [robot, line] : lines_) {
+    if (line.asked) {
+      Entry& entry = entries_.at(*line.asked);
+      if (resend(*entry.sent, now, lives)) out.push_back(entry.request);
+    } else if (!line.unsent.empty()) {
+      line.asked = line.unsent.front();
+      line.unsent.pop_front();
+      Entry& entry = entries_.at(*line.asked);
+      entry.sent = Sending{now, now};
+      out.push_back(entry.request);
+    }
+    // The first in the line is the one that moves; those behind it have every reason to be silent.
+    if (!line.told.empty()) {
+      Entry& entry = entries_.at(line.told.front());
+      if (now - std::max(entry.heard, entry.sent->last) >= patience_.silence) {
+        entry.sent->last = now;
+        out.push_back(entry.request);
+      }
+    }
+  }
+  return out;
+}
+
+std::optional<LocalTime> Ledger::next_due() const {
+  std::optional<LocalTime> next;
+  const auto consider = [&](LocalTime t) { next = next ? std::min(*next, t) : t; };
+  const bool lives = planner_lives(looked_);
+  const auto consider_sending = [&](const Sending& sent) {
+    consider(sent.first + patience_.give_up);
+    if (lives) consider(sent.last + patience_.resend);
+  };
+  for (const auto& [id, order] : orders_) {
+    if (order.sent) {
+      consider_sending(*order.sent);
+    } else if (lives) {
+      consider(looked_);
+    }
+  }
+  for (const auto& [robot, line] : lines_) {
+    if (line.asked) {
+      consider_sending(*entries_.at(*line.asked).sent);
+    } else if (lives && !line.unsent.empty()) {
+      consider(looked_);
+    }
+    if (lives && !line.told.empty()) {
+      const Entry& entry = entries_.at(line.told.front());
+      consider(std::max(entry.heard, entry.sent->last) + patience_.silence);
+    }
+  }
+  return next;
+}
+
+std::vector<Answer> Ledger::take_news() {
+  std::vector<Answer> news;
+  news.swap(news_);
+  return news;
+}
+
+const Answer* Ledger::find(const model::CommandId& id) const {
+  const auto found = entries_.find(id);
+  return found == entries_.end() ? nullptr : &found->second.answer;
+}
+
+std::size_t Ledger::open(const model::RobotName& robot) const {
+  const auto found = lines_.find(robot);
+  return found == lines_.end() ? 0 : found->second.size();
+}
+
+std::size_t Ledger::open() const {
+  std::size_t n = 0;
+  for (const auto& [robot, line] : lines_) n += line.size();
+  return n;
+}
+
+}  // namespace interlace::client

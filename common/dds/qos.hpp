@@ -1,0 +1,19 @@
+#pragma once
+
+#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
+#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+
+#include "common/dds/participant.hpp"
+
+/// Every quality of service of the project, and why. Internal to common/dds.
+namespace interlace::dds::qos {
+
+/// What a stream is for decides its QoS.
+enum class Stream { command, command_status, dispatch, execution, posture, planner_state };
+
+[[nodiscard]] eprosima::fastdds::dds::DomainParticipantQos participant(const ParticipantOptions& options);
+[[nodiscard]] eprosima::fastdds::dds::DataWriterQos writer(Stream stream);
+[[nodiscard]] eprosima::fastdds::dds::DataReaderQos reader(Stream stream);
+
+}  // namespace interlace::dds::qos

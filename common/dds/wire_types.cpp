@@ -1,0 +1,116 @@
+#include "common/dds/wire_types.hpp"
+
+#include <fastcdr/Cdr.h>
+#include <fastcdr/FastBuffer.h>
+
+#include <exception>
+#include <string>
+
+#include "common/dds/limits.hpp"
+#include "interlacePubSubTypes.h"
+
+namespace interlace::dds {
+namespace {
+
+using eprosima::fastcdr::Cdr;
+using eprosima::fastrtps::rtps::SerializedPayload_t;
+
+template <typename T>
+void skip(Cdr& cdr) {
+  T ignored{};
+  cdr >> ignored;
+}
+
+template <typename... T>
+void skip_all(Cdr& cdr) {
+  (skip<T>(cdr), ...);
+}
+
+bool length_within(Cdr& cdr, std::size_t limit, std::uint32_t& length) {
+  cdr >> length;
+  return length <= limit;
+}
+
+// The generated reader makes room for as many elements as the bytes claim, before it looks for them: four forged bytes would take all
+// memory. So the claims are checked first, in the layout of the IDL. Messages without sequences have nothing to check.
+template <typename Wire>
+bool lengths_are_bounded(Cdr& /*cdr*/) {
+  return true;
+}
+
+template <>
+bool lengths_are_bounded<::interlace::CommandStatus>(Cdr& cdr) {
+  skip_all<std::uint32_t, std::uint64_t, std::string, std::string, bool, std::uint32_t, std::uint32_t, std::string, std::int64_t, bool,
+           std::int64_t, bool, std::int64_t, double>(cdr);
+  std::uint32_t length = 0;
+  return length_within(cdr, kMaxConflicts, length);
+}
+
+template <>
+bool lengths_are_bounded<::interlace::PlannerState>(Cdr& cdr) {
+  skip_all<std::uint32_t, std::string, std::uint64_t, std::uint64_t, std::int64_t, std::string>(cdr);
+  std::uint32_t robots = 0;
+  if (!length_within(cdr, kMaxRobots, robots)) return false;
+  for (std::uint32_t r = 0; r < robots; ++r) {
+    skip_all<std::string, std::uint32_t, std::uint32_t, std::string, std::uint32_t, std::string>(cdr);
+    std::uint32_t conflicts = 0;
+    if (!length_within(cdr, kMaxConflicts, conflicts)) return false;
+    for (std::uint32_t c = 0; c < conflicts; ++c) {
+      skip_all<std::string, std::string, std::string, std::int64_t, std::int64_t, double, double, double, double>(cdr);
+    }
+  }
+  return true;
+}
+
+/// The generated type with its doors closed: no exception leaves it, because it also runs in threads that are not ours.
+template <typename Generated>
+class GuardedType : public Generated {
+ public:
+  using Wire = typename Generated::type;
+
+  bool deserialize(SerializedPayload_t* payload, void* data) override {
+    if (!read(payload, data)) *static_cast<Wire*>(data) = Wire{};
+    return true;
+  }
+
+ private:
+  bool read(SerializedPayload_t* payload, void* data) {
+    try {
+      eprosima::fastcdr::FastBuffer bytes{reinterpret_cast<char*>(payload->data), payload->length};
+      Cdr cdr{bytes, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR};
+      cdr.read_encapsulation();
+      return lengths_are_bounded<Wire>(cdr) && Generated::deserialize(payload, data);
+    } catch (const std::exception&) {
+      return false;
+    }
+  }
+};
+
+}  // namespace
+
+template <>
+std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::Command>() {
+  return std::make_unique<GuardedType<::interlace::CommandPubSubType>>();
+}
+template <>
+std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::CommandStatus>() {
+  return std::make_unique<GuardedType<::interlace::CommandStatusPubSubType>>();
+}
+template <>
+std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::Dispatch>() {
+  return std::make_unique<GuardedType<::interlace::DispatchPubSubType>>();
+}
+template <>
+std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::Execution>() {
+  return std::make_unique<GuardedType<::interlace::ExecutionPubSubType>>();
+}
+template <>
+std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::Posture>() {
+  return std::make_unique<GuardedType<::interlace::PosturePubSubType>>();
+}
+template <>
+std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::PlannerState>() {
+  return std::make_unique<GuardedType<::interlace::PlannerStatePubSubType>>();
+}
+
+}  // namespace interlace::dds

@@ -1,0 +1,245 @@
+#include <gtest/gtest.h>
+
+#include "tests/integration/dds/peers.hpp"
+#include "tests/integration/dds/samples.hpp"
+
+// Each message type crosses the wire and arrives as it was. Numbers are compared exactly: CDR carries the bits. Rotations go through a
+// quaternion and are compared within 1e-12.
+namespace interlace::test {
+namespace {
+
+void expect_same(const model::Pose& sent, const model::Pose& got) {
+  EXPECT_TRUE(sent.isApprox(got, 1e-12)) << got.matrix();
+}
+
+void expect_same(const model::MotionRequest& sent, const model::MotionRequest& got) {
+  ASSERT_EQ(sent.target.index(), got.target.index());
+  if (const auto* linear = std::get_if<model::LinearTarget>(&sent.target)) {
+    expect_same(linear->X_WT, std::get<model::LinearTarget>(got.target).X_WT);
+  } else {
+    EXPECT_EQ(std::get<model::JointTarget>(sent.target).q, std::get<model::JointTarget>(got.target).q);
+  }
+  EXPECT_EQ(sent.velocity, got.velocity);
+  EXPECT_EQ(sent.acceleration, got.acceleration);
+}
+
+void expect_same(const std::vector<model::Conflict>& sent, const std::vector<model::Conflict>& got) {
+  ASSERT_EQ(sent.size(), got.size());
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    EXPECT_EQ(sent[i].blocker, got[i].blocker);
+    EXPECT_EQ(sent[i].own_link, got[i].own_link);
+    EXPECT_EQ(sent[i].blocker_link, got[i].blocker_link);
+    EXPECT_EQ(sent[i].from, got[i].from);
+    EXPECT_EQ(sent[i].until, got[i].until);
+    EXPECT_EQ(sent[i].clearance, got[i].clearance);
+    EXPECT_EQ(sent[i].place, got[i].place);
+  }
+}
+
+TEST(RoundTrip, Command) {
+  Pair pair{dds::topics::command("cell", kRobot)};
+  ASSERT_TRUE(pair.match());
+  for (const dds::CommandMessage& sent : {linear_command(), joint_command()}) {
+    const auto got = pair.pass(sent);
+    ASSERT_TRUE(got) << pair.writer.last_refusal() << pair.reader.counters().last_refusal;
+    EXPECT_EQ(got->client, "tester");
+    const auto& a = std::get<model::CommandSubmitted>(sent.request);
+    const auto& b = std::get<model::CommandSubmitted>(got->request);
+    EXPECT_EQ(a.id, b.id);
+    EXPECT_EQ(a.robot, b.robot);
+    EXPECT_EQ(a.priority, b.priority);
+    expect_same(a.motion, b.motion);
+  }
+  const auto cancelled = pair.pass(cancel_command());
+  ASSERT_TRUE(cancelled);
+  EXPECT_EQ(std::get<model::CommandCancelled>(cancelled->request).id.str(), "c-1");
+  const auto stopped = pair.pass(stop_command());
+  ASSERT_TRUE(stopped);
+  EXPECT_EQ(std::get<model::StopRequested>(stopped->request).id.str(), "s-1");
+  EXPECT_EQ(pair.reader.counters().received, 4u);
+  EXPECT_EQ(pair.reader.counters().refused, 0u);
+}
+
+TEST(RoundTrip, CommandStatus) {
+  Pair pair{dds::topics::command_status("cell", kRobot)};
+  ASSERT_TRUE(pair.match());
+  const dds::StatusMessage sent = status();
+  const auto got = pair.pass(sent);
+  ASSERT_TRUE(got) << pair.writer.last_refusal();
+  EXPECT_EQ(got->planner_incarnation, sent.planner_incarnation);
+  EXPECT_EQ(got->status.id, sent.status.id);
+  EXPECT_EQ(got->status.robot, sent.status.robot);
+  EXPECT_EQ(got->status.escape, sent.status.escape);
+  EXPECT_EQ(got->status.state, sent.status.state);
+  EXPECT_EQ(got->status.reason, sent.status.reason);
+  EXPECT_EQ(got->status.text, sent.status.text);
+  EXPECT_EQ(got->status.submitted, sent.status.submitted);
+  EXPECT_EQ(got->status.start, sent.status.start);
+  EXPECT_EQ(got->status.end, sent.status.end);
+  EXPECT_EQ(got->status.delay, sent.status.delay);
+  expect_same(sent.status.conflicts, got->status.conflicts);
+
+  dds::StatusMessage wordy = status();
+  wordy.status.start.reset();
+  wordy.status.text = std::string(300, 'x') + "\n";
+  wordy.status.conflicts.assign(40, conflict());
+  const auto cut = pair.pass(wordy);
+  ASSERT_TRUE(cut) << pair.writer.last_refusal();
+  EXPECT_EQ(cut->status.text.size(), 256u);
+  EXPECT_EQ(cut->status.conflicts.size(), 16u);
+  EXPECT_FALSE(cut->status.start);
+}
+
+TEST(RoundTrip, Dispatch) {
+  Pair pair{dds::topics::dispatch("cell", kRobot)};
+  ASSERT_TRUE(pair.match());
+  const auto executed = pair.pass(execute());
+  ASSERT_TRUE(executed) << pair.writer.last_refusal();
+  EXPECT_EQ(executed->planner_incarnation, 42u);
+  EXPECT_EQ(executed->fingerprint, 0xFEEDFACECAFEBEEF);
+  const auto& sent = std::get<model::Dispatch>(execute().order);
+  const auto& got = std::get<model::Dispatch>(executed->order);
+  EXPECT_EQ(got.id, sent.id);
+  EXPECT_EQ(got.robot, sent.robot);
+  EXPECT_EQ(got.attempt, sent.attempt);
+  EXPECT_EQ(got.from, sent.from);
+  EXPECT_EQ(got.earliest, sent.earliest);
+  EXPECT_EQ(got.latest, sent.latest);
+  EXPECT_EQ(got.duration, sent.duration);
+  expect_same(sent.motion, got.motion);
+
+  const auto withdrawn = pair.pass(withdrawal());
+  ASSERT_TRUE(withdrawn);
+  EXPECT_EQ(std::get<model::Withdrawal>(withdrawn->order).attempt, 7u);
+  EXPECT_EQ(std::get<model::Withdrawal>(withdrawn->order).id.str(), "c-1");
+
+  const auto beaten = pair.pass(heartbeat());
+  ASSERT_TRUE(beaten);
+  const auto& echo = std::get<dds::Heartbeat>(beaten->order);
+  EXPECT_EQ(echo.robot, kRobot);
+  EXPECT_EQ(echo.proxy_incarnation, 99u);
+  EXPECT_EQ(echo.proxy_sent.count(), 123'456'789'012);
+  EXPECT_EQ(echo.planner_received, at(3.1));
+  EXPECT_EQ(echo.planner_sent, at(3.2));
+}
+
+TEST(RoundTrip, Execution) {
+  Pair pair{dds::topics::execution("cell", kRobot)};
+  ASSERT_TRUE(pair.match());
+  const dds::ExecutionMessage sent = execution();
+  const auto got = pair.pass(sent);
+  ASSERT_TRUE(got) << pair.writer.last_refusal();
+  EXPECT_EQ(got->planner_incarnation, 42u);
+  EXPECT_EQ(got->proxy_incarnation, 99u);
+  EXPECT_EQ(got->report.id, sent.report.id);
+  EXPECT_EQ(got->report.robot, sent.report.robot);
+  EXPECT_EQ(got->report.attempt, sent.report.attempt);
+  EXPECT_EQ(got->report.state, sent.report.state);
+  EXPECT_EQ(got->report.at, sent.report.at);
+  EXPECT_EQ(got->report.uncertainty, sent.report.uncertainty);
+  EXPECT_EQ(got->report.joints, sent.report.joints);
+  EXPECT_EQ(got->report.text, sent.report.text);
+}
+
+TEST(RoundTrip, Posture) {
+  Pair pair{dds::topics::posture("cell", kRobot)};
+  ASSERT_TRUE(pair.match());
+  const dds::PostureMessage sent = posture();
+  const auto got = pair.pass(sent);
+  ASSERT_TRUE(got) << pair.writer.last_refusal();
+  EXPECT_EQ(got->fingerprint, sent.fingerprint);
+  EXPECT_EQ(got->proxy_incarnation, 99u);
+  EXPECT_EQ(got->planner_incarnation, 42u);
+  EXPECT_EQ(got->proxy_sent, sent.proxy_sent);
+  EXPECT_EQ(got->posture.robot, kRobot);
+  EXPECT_EQ(got->posture.at, sent.posture.at);
+  EXPECT_EQ(got->posture.uncertainty, sent.posture.uncertainty);
+  EXPECT_EQ(got->posture.joints, sent.posture.joints);
+  expect_same(sent.posture.X_WT, got->posture.X_WT);
+  EXPECT_TRUE(got->posture.moving);
+  EXPECT_FALSE(got->posture.ready);
+  EXPECT_EQ(got->posture.motion.str(), "c-1");
+}
+
+TEST(RoundTrip, PlannerState) {
+  Pair pair{dds::topics::planner_state("cell")};
+  ASSERT_TRUE(pair.match());
+  model::PlannerState sent = planner_state("cell");
+  const auto got = pair.pass(sent);
+  ASSERT_TRUE(got) << pair.writer.last_refusal();
+  EXPECT_EQ(got->cell, sent.cell);
+  EXPECT_EQ(got->fingerprint, sent.fingerprint);
+  EXPECT_EQ(got->incarnation, sent.incarnation);
+  EXPECT_EQ(got->at, sent.at);
+  EXPECT_EQ(got->strategy, sent.strategy);
+  EXPECT_EQ(got->accepted, 16u);
+  EXPECT_EQ(got->rejected, 1u);
+  EXPECT_EQ(got->completed, 15u);
+  EXPECT_EQ(got->refused_samples, 2u);
+  ASSERT_EQ(got->robots.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(got->robots[i].name, sent.robots[i].name);
+    EXPECT_EQ(got->robots[i].mode, sent.robots[i].mode);
+    EXPECT_EQ(got->robots[i].queued, sent.robots[i].queued);
+    EXPECT_EQ(got->robots[i].current, sent.robots[i].current);
+    EXPECT_EQ(got->robots[i].reason, sent.robots[i].reason);
+    EXPECT_EQ(got->robots[i].text, sent.robots[i].text);
+    expect_same(sent.robots[i].conflicts, got->robots[i].conflicts);
+  }
+}
+
+// The largest state a cell can have is far above one UDP datagram.
+TEST(RoundTrip, LargestPlannerState) {
+  Pair pair{dds::topics::planner_state("cell")};
+  ASSERT_TRUE(pair.match());
+  model::PlannerState sent = planner_state("cell");
+  sent.robots.clear();
+  for (int r = 0; r < 128; ++r) {
+    sent.robots.push_back(robot_status("robot-" + std::to_string(r)));
+    sent.robots.back().text = std::string(256, 't');
+    sent.robots.back().conflicts.assign(16, conflict());
+  }
+  const auto got = pair.pass(sent);
+  ASSERT_TRUE(got) << pair.writer.last_refusal();
+  ASSERT_EQ(got->robots.size(), 128u);
+  EXPECT_EQ(got->robots[127].conflicts.size(), 16u);
+
+  sent.robots.push_back(robot_status("one-too-many"));
+  EXPECT_FALSE(pair.writer.write(sent));
+  EXPECT_NE(pair.writer.last_refusal().find("129 are too many"), std::string::npos) << pair.writer.last_refusal();
+}
+
+TEST(Wait, ReturnsAtTheDeadlineAndAtWake) {
+  dds::Wait wait;
+  const auto start = Clock::now();
+  EXPECT_FALSE(wait.until(start + 50ms));
+  EXPECT_GE(Clock::now() - start, 50ms);
+  wait.wake();
+  EXPECT_TRUE(wait.until(start + 1h));
+  EXPECT_FALSE(wait.until(Clock::now() - 1s)) << "one wake() ends one until()";
+}
+
+TEST(Participant, RefusesADomainWithoutPorts) {
+  EXPECT_THROW((dds::Participant{{233, "nobody"}}), std::invalid_argument);
+}
+
+TEST(Participant, TalksWithSharedMemoryAddedToo) {
+  dds::Participant sender{{unique_domain(), "sender", true}};
+  dds::Participant receiver{{unique_domain(), "receiver", true}};
+  dds::Writer<dds::PostureMessage> writer{sender, dds::topics::posture("shm", kRobot)};
+  dds::Reader<dds::PostureMessage> reader{receiver, dds::topics::posture("shm", kRobot)};
+  dds::Wait wait;
+  wait.attach(reader);
+  ASSERT_TRUE(writer.write(posture()));
+  EXPECT_TRUE(wait_until(wait, [&] { return reader.take([](dds::PostureMessage&&) {}) > 0; }));
+}
+
+TEST(Topics, RefuseNamesThatAreNone) {
+  EXPECT_EQ(dds::topics::posture("cell", kRobot).name, "cell/r1/posture");
+  EXPECT_EQ(dds::topics::planner_state("cell").name, "cell/planner_state");
+  EXPECT_THROW(static_cast<void>(dds::topics::posture("a/b", kRobot)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(dds::topics::posture("cell", model::RobotName{""})), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace interlace::test
