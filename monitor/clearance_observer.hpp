@@ -13,8 +13,8 @@ namespace interlace::monitor {
 /// What an observer has seen of one pair of robots.
 struct PairClearance {
   model::RobotIndex a = 0, b = 0;
-  double least = 0;     ///< least clearance between their bodies [m]; ≤ 0 is a collision
-  double at = 0;        ///< when [s]
+  double least = 0;  ///< least clearance between their bodies [m]; ≤ 0 is a collision
+  double at = 0;     ///< when [s]
   std::string link_a, link_b;
   double below_zero = 0;     ///< time in collision [s]
   std::size_t contacts = 0;  ///< how often a collision began

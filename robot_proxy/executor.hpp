@@ -20,7 +20,7 @@ struct Moment {
 };
 
 /// `uncertainty` [s] of a report made while the proxy has no estimate of planner time; its `at` is meaningless then.
-inline constexpr double kUnknownTime = 1e9;
+inline constexpr double kUnknownTime = 1e6;
 
 struct ExecutorOptions {
   double from_tolerance = 1e-3;    ///< largest deviation of a joint from the posture the motion was planned from [rad]

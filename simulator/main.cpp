@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
+#include <unistd.h>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "common/app/command_line.hpp"
 #include "common/app/config/cell_file.hpp"

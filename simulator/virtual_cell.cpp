@@ -19,13 +19,20 @@ using proxy::LocalTime;
 namespace {
 
 /// In virtual time the proxies' clocks and the planner's show the same.
-LocalTime local(Instant t) { return LocalTime{t.time_since_epoch()}; }
-Instant planner_time(LocalTime t) { return Instant{t.time_since_epoch()}; }
-proxy::Moment moment(Instant t) { return {local(t), proxy::ClockEstimate{}}; }
+LocalTime local(Instant t) {
+  return LocalTime{t.time_since_epoch()};
+}
+Instant planner_time(LocalTime t) {
+  return Instant{t.time_since_epoch()};
+}
+proxy::Moment moment(Instant t) {
+  return {local(t), proxy::ClockEstimate{}};
+}
 
 /// One robot with its controller and the proxy's decisions.
 struct VirtualRobot {
-  VirtualRobot(const model::Robot& r, std::uint64_t seed) : robot(r), controller(r, options(seed)), executor(r.name, controller.capabilities()) {}
+  VirtualRobot(const model::Robot& r, std::uint64_t seed)
+      : robot(r), controller(r, options(seed)), executor(r.name, controller.capabilities()) {}
 
   static proxy::SimOptions options(std::uint64_t seed) {
     proxy::SimOptions o;
@@ -204,7 +211,8 @@ class World {
     const double end = model::to_seconds(until);
     for (; checked_ * options_.check_period < end; ++checked_) {
       const double t = checked_ * options_.check_period;
-      for (std::size_t i = 0; i < robots_.size(); ++i) observer_.on_posture(i, t, robots_[i]->controller.observe(local(model::at_seconds(t))).joints);
+      for (std::size_t i = 0; i < robots_.size(); ++i)
+        observer_.on_posture(i, t, robots_[i]->controller.observe(local(model::at_seconds(t))).joints);
     }
     if (!options_.trace) return;
     for (; traced_ * options_.trace_period < end; ++traced_) {

@@ -15,11 +15,11 @@ namespace interlace::sim {
 
 struct VirtualOptions {
   std::string strategy = "event";
-  std::uint64_t seed = 1;          ///< of the controllers' latencies and speed errors
-  double trace_period = 0.01;      ///< [s]
-  double check_period = 0.001;     ///< between the postures whose clearance is judged [s]
-  TraceWriter* trace = nullptr;    ///< not owned; null: no trace
-  std::function<double()> stopwatch;          ///< elapsed seconds, for the statistics; may be empty
+  std::uint64_t seed = 1;                                          ///< of the controllers' latencies and speed errors
+  double trace_period = 0.01;                                      ///< [s]
+  double check_period = 0.001;                                     ///< between the postures whose clearance is judged [s]
+  TraceWriter* trace = nullptr;                                    ///< not owned; null: no trace
+  std::function<double()> stopwatch;                               ///< elapsed seconds, for the statistics; may be empty
   std::function<void(double, std::size_t, std::size_t)> progress;  ///< virtual time [s], commands finished, commands in all
 };
 
@@ -27,6 +27,7 @@ struct VirtualOptions {
 /// messages that take no time. Deterministic for a seed. Ends when every command is final or nothing can happen any more.
 /// The least clearance and the collisions are judged from the controllers' postures by the observer, not by the planner.
 /// Throws std::invalid_argument when the strategy is unknown.
-[[nodiscard]] app::RunReport run_virtual(std::shared_ptr<const model::Cell> cell, const model::Program& program, const VirtualOptions& options);
+[[nodiscard]] app::RunReport run_virtual(std::shared_ptr<const model::Cell> cell, const model::Program& program,
+                                         const VirtualOptions& options);
 
 }  // namespace interlace::sim

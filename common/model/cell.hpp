@@ -39,8 +39,8 @@ struct Robot {
 };
 
 struct PlanningOptions {
-  double resolution = 0.01;         ///< smallest cell of a collision map [s]
-  double margin = 0;                ///< clearance kept beyond contact [m]
+  double resolution = 0.01;  ///< smallest cell of a collision map [s]
+  double margin = 0;         ///< clearance kept beyond contact [m]
   std::string strategy = "event";
   std::optional<double> lead;             ///< shortest time from a decision to a start [s]; default: the program's own
   std::optional<double> start_tolerance;  ///< latest start after the planned one, before the controller's own latency [s]; ditto

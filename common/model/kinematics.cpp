@@ -1,5 +1,6 @@
 #include "common/model/kinematics.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace interlace::model {
@@ -67,13 +68,17 @@ LinkFrames Kinematics::forward(const Joints& q_external) const {
   return X;
 }
 
-Pose Kinematics::flange(const Joints& q) const { return forward(q)[6]; }
+Pose Kinematics::flange(const Joints& q) const {
+  return forward(q)[6];
+}
 
 std::optional<ArmTriangle> Kinematics::triangle(const Vector3& p_BW, Branch::Shoulder shoulder) const {
   const double squared = p_BW.x() * p_BW.x() + p_BW.y() * p_BW.y() - p_.b * p_.b;
-  if (squared < 0) return std::nullopt;
+  constexpr double kRounding = 1e-15;  // [m²] of a wrist that is as near to axis 1 as the offset lets it come
+  if (squared < -kRounding) return std::nullopt;
+  const double radial = std::sqrt(std::max(squared, 0.0));
   ArmTriangle t{};
-  t.radial = shoulder == Branch::Shoulder::front ? std::sqrt(squared) : -std::sqrt(squared);
+  t.radial = shoulder == Branch::Shoulder::front ? radial : -radial;
   t.x = t.radial - p_.a1;
   t.z = p_BW.z() - p_.c1;
   t.distance = std::hypot(t.x, t.z);
@@ -103,14 +108,12 @@ std::optional<Joints> Kinematics::inverse(const Pose& X_BF, const Branch& branch
   const Eigen::Matrix3d R_36 = R_B3.transpose() * X_BF.linear();
   const double s5 = std::hypot(R_36(0, 2), R_36(1, 2));
   const double sign = branch.wrist == Branch::Wrist::positive ? 1.0 : -1.0;
-  q[4] = std::atan2(sign * s5, R_36(2, 2));
-  if (s5 < kWristSingular) {
-    q[3] = 0;
-    q[5] = R_36(2, 2) > 0 ? std::atan2(R_36(1, 0), R_36(0, 0)) : std::atan2(R_36(1, 0), R_36(1, 1));
-  } else {
-    q[3] = std::atan2(sign * R_36(1, 2), sign * R_36(0, 2));
-    q[5] = std::atan2(sign * R_36(2, 1), -sign * R_36(2, 0));
-  }
+  q[3] = s5 < kWristSingular ? 0.0 : std::atan2(sign * R_36(1, 2), sign * R_36(0, 2));
+  // The rest from what is left once joint 4 is turned back: exact in orientation also where joint 4 itself is hardly determined.
+  const double c4 = std::cos(q[3]);
+  const double s4 = std::sin(q[3]);
+  q[4] = std::atan2(c4 * R_36(0, 2) + s4 * R_36(1, 2), R_36(2, 2));
+  q[5] = std::atan2(c4 * R_36(1, 0) - s4 * R_36(0, 0), c4 * R_36(1, 1) - s4 * R_36(0, 1));
   return to_external(q);
 }
 

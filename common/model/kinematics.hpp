@@ -20,8 +20,8 @@ struct OpwParameters {
 
 /// One of the eight postures that reach a pose. A path keeps the branch it starts in.
 struct Branch {
-  enum class Shoulder { front, back };  ///< wrist in front of axis 1, or behind it (arm laid over backwards)
-  enum class Elbow { up, down };        ///< elbow above or below the line shoulder → wrist
+  enum class Shoulder { front, back };      ///< wrist in front of axis 1, or behind it (arm laid over backwards)
+  enum class Elbow { up, down };            ///< elbow above or below the line shoulder → wrist
   enum class Wrist { positive, negative };  ///< sign of joint 5
   Shoulder shoulder = Shoulder::front;
   Elbow elbow = Elbow::up;

@@ -56,27 +56,29 @@ enum class CommandState : std::uint8_t {
   cancelled,  ///< final
   failed      ///< final: started and did not arrive
 };
-[[nodiscard]] constexpr bool is_final(CommandState s) { return s >= CommandState::completed; }
+[[nodiscard]] constexpr bool is_final(CommandState s) {
+  return s >= CommandState::completed;
+}
 [[nodiscard]] const char* to_string(CommandState s);
 
 enum class Reason : std::uint8_t {
   none,
-  bad_request,        ///< a value that no robot could carry out (speed ≤ 0, above the limit, empty id, unknown robot)
-  unreachable,        ///< a point of the path is out of reach
-  joint_limit,        ///< a joint leaves its limits on the path
-  joint_speed,        ///< a joint would have to be faster than its limit
-  joint_jump,         ///< the path crosses a singularity or would change the branch
+  bad_request,  ///< a value that no robot could carry out (speed ≤ 0, above the limit, empty id, unknown robot)
+  unreachable,  ///< a point of the path is out of reach
+  joint_limit,  ///< a joint leaves its limits on the path
+  joint_speed,  ///< a joint would have to be faster than its limit
+  joint_jump,   ///< the path crosses a singularity or would change the branch
   self_collision,
-  base_collision,     ///< the immovable base of a neighbour is in the way
+  base_collision,  ///< the immovable base of a neighbour is in the way
   queue_full,
-  blocked,            ///< another robot stands or will stand in the way for good: no start window (deadlock)
-  delayed,            ///< starts later to let others pass
-  robot_unknown,      ///< a robot that is not heard from, or moves by itself, could be anywhere
-  not_ready,          ///< the robot itself is not heard from or not ready
-  refused_by_proxy,   ///< start was missed or refused; planned again
+  blocked,           ///< another robot stands or will stand in the way for good: no start window (deadlock)
+  delayed,           ///< starts later to let others pass
+  robot_unknown,     ///< a robot that is not heard from, or moves by itself, could be anywhere
+  not_ready,         ///< the robot itself is not heard from or not ready
+  refused_by_proxy,  ///< start was missed or refused; planned again
   controller_fault,
-  on_request,         ///< cancelled or stopped by a client
-  unknown_id          ///< no such command
+  on_request,  ///< cancelled or stopped by a client
+  unknown_id   ///< no such command
 };
 [[nodiscard]] const char* to_string(Reason r);
 
@@ -85,9 +87,9 @@ struct Conflict {
   RobotName blocker;
   std::string own_link;
   std::string blocker_link;
-  Instant from{};            ///< first start that this conflict forbids
-  Instant until = kForever;  ///< starts are free again from here on as far as this blocker goes; kForever: no end is known
-  double clearance = 0;      ///< predicted clearance at the conflict's deepest examined point [m]
+  Instant from{};                   ///< first start that this conflict forbids
+  Instant until = kForever;         ///< starts are free again from here on as far as this blocker goes; kForever: no end is known
+  double clearance = 0;             ///< predicted clearance at the conflict's deepest examined point [m]
   Vector3 place = Vector3::Zero();  ///< world point between the two bodies there [m]
 };
 

@@ -17,9 +17,13 @@ constexpr double kLargestStep = 0.1;    // [rad] a joint may turn between knots 
 constexpr int kLargestRefinement = 12;  // halvings of a knot interval before a step counts as a jump
 constexpr double kNoWay = 1e-9;         // [m] or [rad] below which there is nothing to travel
 
-Quaternion rotation_of(const Pose& X) { return Quaternion{X.linear()}; }
+Quaternion rotation_of(const Pose& X) {
+  return Quaternion{X.linear()};
+}
 
-double degrees(double rad) { return rad * 180 / kPi; }
+double degrees(double rad) {
+  return rad * 180 / kPi;
+}
 
 }  // namespace
 
@@ -52,7 +56,7 @@ Joints Motion::joints(double t) const {
     for (std::size_t i = 0; i < kJoints; ++i) q[i] += std::copysign(joint_laws_[i].at(t), knots_.back()[i] - knots_.front()[i]);
     return q;
   }
-  const Joints near = between_knots(t);
+  Joints near = between_knots(t);
   const auto exact = robot_->model.kinematics.inverse(tcp_in_base(*line_, t) * robot_->model.X_FT.inverse(), line_->branch);
   if (!exact) return near;  // the walk along the path found every knot in reach, so only rounding can miss in between
   Joints q;
@@ -104,10 +108,12 @@ namespace {
 /// The request's speeds, checked against the robot's own.
 Result<TcpLimits, MotionError> chosen_limits(const Robot& robot, const MotionRequest& request) {
   TcpLimits limits = robot.tcp;
-  const auto check = [&](const std::optional<double>& wanted, double& limit, const char* what, const char* unit) -> std::optional<MotionError> {
+  const auto check = [&](const std::optional<double>& wanted, double& limit, const char* what,
+                         const char* unit) -> std::optional<MotionError> {
     if (!wanted) return std::nullopt;
     if (!(*wanted > 0) || *wanted > limit * (1 + 1e-9)) {
-      return MotionError{Reason::bad_request, 0, {}, fmt::format("{} {:g} {} is not above 0 and at most {:g} {}", what, *wanted, unit, limit, unit)};
+      return MotionError{
+          Reason::bad_request, 0, {}, fmt::format("{} {:g} {} is not above 0 and at most {:g} {}", what, *wanted, unit, limit, unit)};
     }
     limit = *wanted;
     return std::nullopt;
@@ -138,8 +144,8 @@ std::pair<TimeLaw, TimeLaw> line_laws(double length, double angle, const TcpLimi
 
 MotionError joint_limit_error(const Robot& robot, std::size_t joint, double angle, double progress, const Vector3& place) {
   return {Reason::joint_limit, progress, place,
-          fmt::format("joint {} would be at {:.1f}°, outside its limits [{:.1f}°, {:.1f}°], at {:.0f} % of the path", joint + 1, degrees(angle),
-                      degrees(robot.model.joints.min[joint]), degrees(robot.model.joints.max[joint]), 100 * progress)};
+          fmt::format("joint {} would be at {:.1f}°, outside its limits [{:.1f}°, {:.1f}°], at {:.0f} % of the path", joint + 1,
+                      degrees(angle), degrees(robot.model.joints.min[joint]), degrees(robot.model.joints.max[joint]), 100 * progress)};
 }
 
 /// Walks a path from knot to knot, looking closer where a joint turns fast, until it is continuous or provably jumps.
@@ -178,12 +184,13 @@ class PathWalk {
     const double largest = (q1 - q0).cwiseAbs().maxCoeff(&joint);
     if (largest > kLargestStep) {
       if (depth >= kLargestRefinement) {
-        return unexpected(MotionError{Reason::joint_jump, progress, place(t1),
-                                      fmt::format("joint {} would jump by {:.1f}° (singularity or change of branch) at {:.0f} % of the path",
-                                                  joint + 1, degrees(largest), 100 * progress)});
+        return unexpected(
+            MotionError{Reason::joint_jump, progress, place(t1),
+                        fmt::format("joint {} would jump by {:.1f}° (singularity or change of branch) at {:.0f} % of the path", joint + 1,
+                                    degrees(largest), 100 * progress)});
       }
       const double middle = (t0 + t1) / 2;
-      const auto half = step(robot, q0, t0, middle, duration, depth + 1, posture, place);
+      auto half = step(robot, q0, t0, middle, duration, depth + 1, posture, place);
       if (!half) return half;
       return step(robot, *half, middle, t1, duration, depth + 1, posture, place);
     }
@@ -195,9 +202,10 @@ class PathWalk {
         const double speed = std::abs(q1[i] - q0[i]) / (t1 - t0);
         const double limit = (*robot.model.joints.velocity)[i];
         if (speed > limit * (1 + 1e-6)) {
-          return unexpected(MotionError{Reason::joint_speed, progress, place(t1),
-                                        fmt::format("joint {} would turn at {:.1f}°/s, faster than its limit {:.1f}°/s, at {:.0f} % of the path",
-                                                    i + 1, degrees(speed), degrees(limit), 100 * progress)});
+          return unexpected(
+              MotionError{Reason::joint_speed, progress, place(t1),
+                          fmt::format("joint {} would turn at {:.1f}°/s, faster than its limit {:.1f}°/s, at {:.0f} % of the path", i + 1,
+                                      degrees(speed), degrees(limit), 100 * progress)});
         }
       }
     }

@@ -31,7 +31,7 @@ class Motion {
   [[nodiscard]] static Motion rest(const Robot& robot, const Joints& q);
 
   [[nodiscard]] const Robot& robot() const { return *robot_; }
-  [[nodiscard]] double duration() const { return duration_; }       ///< [s]
+  [[nodiscard]] double duration() const { return duration_; }  ///< [s]
   [[nodiscard]] const Joints& from() const { return knots_.front(); }
   [[nodiscard]] const Joints& to() const { return knots_.back(); }
 

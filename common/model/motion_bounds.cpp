@@ -8,7 +8,9 @@ namespace interlace::model {
 namespace {
 
 /// Distance of point `p` from the line through `origin` along the unit vector `axis`.
-double distance_to_axis(const Vector3& p, const Vector3& origin, const Vector3& axis) { return axis.cross(p - origin).norm(); }
+double distance_to_axis(const Vector3& p, const Vector3& origin, const Vector3& axis) {
+  return axis.cross(p - origin).norm();
+}
 
 /// Axis of joint `j` (0 … 5) in the base frame for the link frames `X`: its point and direction.
 std::pair<Vector3, Vector3> joint_axis(const LinkFrames& X, std::size_t j) {
@@ -29,7 +31,9 @@ double by_joints(const LinkFrames& X, std::size_t link, const Vector3& p, const 
 }
 
 /// Largest azimuth change of a direction with polar angle sine `s`, tilted by at most `tilt`.
-double azimuth_sweep(double tilt, double s) { return tilt < kPi / 2 && std::sin(tilt) < s ? std::asin(std::sin(tilt) / s) : kPi; }
+double azimuth_sweep(double tilt, double s) {
+  return tilt < kPi / 2 && std::sin(tilt) < s ? std::asin(std::sin(tilt) / s) : kPi;
+}
 
 }  // namespace
 
@@ -78,7 +82,7 @@ JointSweep joint_sweep(const Kinematics& kinematics, const Branch& branch, const
   const double s5 = std::abs(X[4].linear().col(2).cross(X[6].linear().col(2)).norm());
   sweep[3] = azimuth_sweep(tilt, s5);
   sweep[4] = tilt;
-  sweep[5] = azimuth_sweep(tilt, s5) + (tilt < kPi / 2 ? tilt : kPi);
+  sweep[5] = sweep[3];  // the same seen from the hand: its own turn is the azimuth of the forearm's axis
   return sweep;
 }
 

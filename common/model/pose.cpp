@@ -16,7 +16,9 @@ Pose make_pose(const Vector3& p, const Quaternion& q) {
   return X;
 }
 
-double nearest_turn(double angle, double reference) { return angle + 2 * kPi * std::round((reference - angle) / (2 * kPi)); }
+double nearest_turn(double angle, double reference) {
+  return angle + 2 * kPi * std::round((reference - angle) / (2 * kPi));
+}
 
 double angle_between(const Quaternion& a, const Quaternion& b) {
   const Quaternion d = a.conjugate() * b;

@@ -5,9 +5,9 @@
 
 namespace interlace::model {
 
-using Vector3 = Eigen::Vector3d;      ///< [m] unless said otherwise
+using Vector3 = Eigen::Vector3d;  ///< [m] unless said otherwise
 using Quaternion = Eigen::Quaterniond;
-using Pose = Eigen::Isometry3d;       ///< X_AB: pose of frame B in frame A; translation [m]
+using Pose = Eigen::Isometry3d;  ///< X_AB: pose of frame B in frame A; translation [m]
 
 inline constexpr std::size_t kJoints = 6;
 using Joints = Eigen::Matrix<double, kJoints, 1>;  ///< joint angles [rad], base to flange

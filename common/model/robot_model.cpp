@@ -48,7 +48,9 @@ std::vector<std::pair<std::size_t, std::size_t>> default_self_pairs(const std::v
   return pairs;
 }
 
-Pose tcp_pose(const RobotModel& model, const Joints& q) { return model.kinematics.flange(q) * model.X_FT; }
+Pose tcp_pose(const RobotModel& model, const Joints& q) {
+  return model.kinematics.flange(q) * model.X_FT;
+}
 
 void place_capsules(const RobotModel& model, const Pose& X_WB, const Joints& q, std::vector<Capsule>& out) {
   const LinkFrames X = model.kinematics.forward(q);

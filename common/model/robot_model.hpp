@@ -21,7 +21,7 @@ struct JointLimits {
 
 /// Swept sphere on a line, fixed to a link: ends in the link's frame [m], radius [m]. A sphere has a == b.
 struct LinkCapsule {
-  std::string name;  ///< what messages to people call it: base, link1, link2, eef, …
+  std::string name;      ///< what messages to people call it: base, link1, link2, eef, …
   std::size_t link = 0;  ///< 0 … 6, see LinkFrames
   Vector3 a = Vector3::Zero();
   Vector3 b = Vector3::Zero();
@@ -62,7 +62,8 @@ struct Capsule {
 void place_capsules(const RobotModel& model, const Pose& X_WB, const Joints& q, std::vector<Capsule>& out);
 
 /// Joints that bring the TCP to `X_BT`: the first posture within the joint limits in the order of `all_branches`, of the two wrist signs
-/// the one with the smaller |q4| + |q6|. Only of branches that `admits` lets through, when given. Empty when none reaches it within its limits.
+/// the one with the smaller |q4| + |q6|. Only of branches that `admits` lets through, when given. Empty when none reaches it within its
+/// limits.
 [[nodiscard]] std::optional<Joints> preferred_posture(const RobotModel& model, const Pose& X_BT,
                                                       const std::function<bool(const Branch&)>& admits = nullptr);
 

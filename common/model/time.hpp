@@ -22,16 +22,22 @@ inline constexpr Instant kForever = Instant::max();
 inline constexpr Instant kEarliest = Instant::min();
 
 /// `d` in seconds.
-[[nodiscard]] constexpr double to_seconds(Duration d) { return std::chrono::duration<double>(d).count(); }
+[[nodiscard]] constexpr double to_seconds(Duration d) {
+  return std::chrono::duration<double>(d).count();
+}
 
 /// Seconds since the planner's epoch.
-[[nodiscard]] constexpr double to_seconds(Instant t) { return to_seconds(t.time_since_epoch()); }
+[[nodiscard]] constexpr double to_seconds(Instant t) {
+  return to_seconds(t.time_since_epoch());
+}
 
 /// Nearest nanosecond to `s` seconds; |s| must be below 292 years.
 [[nodiscard]] constexpr Duration from_seconds(double s) {
   return Duration{static_cast<std::int64_t>(s * 1e9 + (s < 0 ? -0.5 : 0.5))};
 }
 
-[[nodiscard]] constexpr Instant at_seconds(double s) { return Instant{from_seconds(s)}; }
+[[nodiscard]] constexpr Instant at_seconds(double s) {
+  return Instant{from_seconds(s)};
+}
 
 }  // namespace interlace::model

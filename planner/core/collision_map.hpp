@@ -8,7 +8,7 @@ namespace interlace::core {
 
 /// One blocked rectangle of a collision map: travelling length of the commanded robot's TCP over the servo time of the moving robot.
 struct CollisionArea {
-  double t0 = 0, t1 = 0;          ///< [s], local to the moving robot's motion
+  double t0 = 0, t1 = 0;            ///< [s], local to the moving robot's motion
   double length0 = 0, length1 = 0;  ///< [m]; length1 is the whole length where the end posture is blocked
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "planner/core/admission.hpp"
@@ -31,6 +32,12 @@ Instant latest_end(const Commitment& c) {
   return c.start_until + model::from_seconds(motion.duration() * (1 + motion.robot().controller.speed_error));
 }
 
+void append(Decisions more, Decisions& out) {
+  std::move(more.dispatches.begin(), more.dispatches.end(), std::back_inserter(out.dispatches));
+  std::move(more.withdrawals.begin(), more.withdrawals.end(), std::back_inserter(out.withdrawals));
+  std::move(more.statuses.begin(), more.statuses.end(), std::back_inserter(out.statuses));
+}
+
 /// Saying it again would tell nobody anything new.
 bool same_message(const CommandStatus& a, const CommandStatus& b) {
   return a.state == b.state && a.reason == b.reason && a.start == b.start && a.end == b.end && a.text == b.text;
@@ -39,7 +46,9 @@ bool same_message(const CommandStatus& a, const CommandStatus& b) {
 }  // namespace
 
 Planner::Planner(std::shared_ptr<const model::Cell> cell, PlannerOptions options)
-    : cell_(std::move(cell)), options_(std::move(options)), strategy_(make_strategy(options_.strategy)),
+    : cell_(std::move(cell)),
+      options_(std::move(options)),
+      strategy_(make_strategy(options_.strategy)),
       maps_(cell_->planning.margin, options_.stopwatch) {
   if (!strategy_) throw std::invalid_argument(fmt::format("unknown strategy \"{}\"", options_.strategy));
   robots_.resize(cell_->robots.size());
@@ -101,7 +110,8 @@ Decisions Planner::on(const model::CommandSubmitted& event, Instant now) {
   }
   RobotRecord& r = robots_[*index];
   if (r.queue.size() >= options_.queue_limit) {
-    reject(status, Reason::queue_full, fmt::format("{} commands are waiting for {}; no more are taken", r.queue.size(), event.robot.str()), out);
+    reject(status, Reason::queue_full, fmt::format("{} commands are waiting for {}; no more are taken", r.queue.size(), event.robot.str()),
+           out);
     return out;
   }
   auto motion = admit(*index, r.joints_at_end(), event.motion);
@@ -124,7 +134,8 @@ void Planner::rejudge_queue(RobotRecord& r, Decisions& out) {
     if ((it->motion->motion().from() - from).cwiseAbs().maxCoeff() > 0) {
       auto motion = admit(index_of(r), from, it->request);
       if (!motion) {
-        reject(it->status, motion.error().reason, fmt::format("no longer possible from where the robot is now: {}", motion.error().text), out);
+        reject(it->status, motion.error().reason, fmt::format("no longer possible from where the robot is now: {}", motion.error().text),
+               out);
         it = r.queue.erase(it);
         continue;
       }
@@ -258,39 +269,86 @@ Decisions Planner::on(const model::PostureReported& event, Instant now) {
   const auto index = cell_->find(event.robot);
   if (!index) return out;
   RobotRecord& r = robots_[*index];
+  if (event.at < r.known_at) return out;  // overtaken by a report of something later
+  r.known_at = std::min(event.at, now);
+  if (!event.moving) r.stood = event;
   const bool was_lost = r.lost();
   const bool was_ready = r.ready;
   r.heard = true;
   r.last_heard = now;
   r.ready = event.ready;
-  const bool ours = r.committed && r.committed->phase != Commitment::Phase::held;
+  if (event.moving && r.committed && r.committed->phase == Commitment::Phase::dispatched &&
+      r.committed->command.status.id == event.motion) {
+    const Instant seen = event.at + model::from_seconds(event.uncertainty);
+    begin(r, {r.committed->start_from, std::clamp(seen, r.committed->start_from, r.committed->start_until)}, out);
+    r.foreign = false;
+    schedule(now, out);
+    return out;
+  }
+  const bool sent = r.committed && r.committed->phase != Commitment::Phase::held;
+  const bool ours = r.committed && r.committed->phase == Commitment::Phase::started;
   r.foreign = event.moving && !ours;
   bool changed = was_lost != r.lost() || was_ready != r.ready;
-  if (!event.moving && !ours && (event.joints - r.standing->motion().to()).cwiseAbs().maxCoeff() > kSamePlace) {
+  if (!event.moving && !sent && (event.joints - r.standing->motion().to()).cwiseAbs().maxCoeff() > kSamePlace) {
     if (r.committed) put_back(r, Reason::none, {}, out);
     stand_at(r, event.joints, now, out);
     revoke_dependents(*index, out);
     changed = true;
   }
-  if (ours && !event.moving && r.committed->phase == Commitment::Phase::started && now > latest_end(*r.committed) + kGrace) {
-    // It stands long after it must have arrived and its report is missing: the posture says what became of it.
-    const bool arrived = (event.joints - r.committed->command.motion->motion().to()).cwiseAbs().maxCoeff() <= kSamePlace;
-    model::ExecutionReported report;
-    report.id = r.committed->command.status.id;
-    report.robot = event.robot;
-    report.attempt = r.committed->command.attempts;
-    report.state = arrived ? ExecutionState::completed : ExecutionState::failed;
-    report.at = event.at;
-    report.joints = event.joints;
-    if (!arrived) report.text = "the robot stands away from its target and nothing was reported";
-    return on(report, now);
+  if (const auto outcome = unreported_outcome(r, now)) {
+    append(on(*outcome, now), out);
+    return out;
   }
   if (r.foreign && !was_lost) {
-    if (r.committed) put_back(r, Reason::not_ready, fmt::format("{} moves although nobody told it to", r.robot->name.str()), out);
+    if (sent) {
+      out.withdrawals.push_back({r.committed->command.status.id, r.robot->name, r.committed->command.attempts});
+    } else if (r.committed) {
+      put_back(r, Reason::not_ready, fmt::format("{} moves although nobody told it to", r.robot->name.str()), out);
+    }
     revoke_dependents(*index, out);
   }
   if (changed) schedule(now, out);
   return out;
+}
+
+void Planner::begin(RobotRecord& r, const StartInterval& start, Decisions& out) {
+  Commitment& c = *r.committed;
+  c.phase = Commitment::Phase::started;
+  c.start_from = start.from;
+  c.start_until = start.until;
+  r.last_started = c.serial;
+  CommandStatus& status = c.command.status;
+  status.state = CommandState::started;
+  status.start = start.from + (start.until - start.from) / 2;
+  status.end = *status.start + model::from_seconds(c.command.motion->motion().duration());
+  if (c.cancel_requested) status.text = "it had started when it was to be given up";
+  publish(status, out);
+}
+
+/// What the proxy must have reported and nobody heard: the robot stands, long after it must have started or arrived.
+std::optional<model::ExecutionReported> Planner::unreported_outcome(const RobotRecord& r, Instant now) {
+  if (!r.committed || r.committed->phase == Commitment::Phase::held || r.lost() || !r.stood) return std::nullopt;
+  const Commitment& c = *r.committed;
+  const bool started = c.phase == Commitment::Phase::started;
+  const Instant over = started ? latest_end(c) : c.start_until;
+  if (now <= over + kGrace || r.stood->at <= over) return std::nullopt;
+  const auto stands_at = [&](const model::Joints& q) { return (r.stood->joints - q).cwiseAbs().maxCoeff() <= kSamePlace; };
+  model::ExecutionReported report;
+  report.id = c.command.status.id;
+  report.robot = r.robot->name;
+  report.attempt = c.command.attempts;
+  report.at = r.stood->at;
+  report.joints = r.stood->joints;
+  if (stands_at(c.command.motion->motion().to())) {
+    report.state = ExecutionState::completed;
+  } else if (!started && stands_at(c.command.motion->motion().from())) {
+    report.state = ExecutionState::refused;
+    report.text = "the start was not confirmed and the robot has not moved";
+  } else {
+    report.state = ExecutionState::failed;
+    report.text = "the robot stands away from its target and nothing was reported";
+  }
+  return report;
 }
 
 Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
@@ -298,8 +356,11 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
   const auto index = cell_->find(event.robot);
   if (!index) return out;
   RobotRecord& r = robots_[*index];
+  // A proxy never starts a command twice: asked again for one that it has started, it answers with the attempt that it carried out.
+  const bool executed =
+      event.state == ExecutionState::started || event.state == ExecutionState::completed || event.state == ExecutionState::failed;
   const bool ours = r.committed && r.committed->phase != Commitment::Phase::held && r.committed->command.status.id == event.id &&
-                    r.committed->command.attempts == event.attempt;
+                    (event.attempt == r.committed->command.attempts || (executed && event.attempt < r.committed->command.attempts));
   if (!ours) return out;  // of an older plan, or said twice
   Commitment& c = *r.committed;
   CommandStatus& status = c.command.status;
@@ -308,16 +369,10 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
   switch (event.state) {
     case ExecutionState::accepted: c.accepted = true; return out;
     case ExecutionState::started:
-      if (c.phase == Commitment::Phase::started) return out;
-      c.phase = Commitment::Phase::started;
-      c.start_from = event.at - uncertainty;
-      c.start_until = event.at + uncertainty;
-      r.last_started = c.serial;
-      status.state = CommandState::started;
-      status.start = event.at;
-      status.end = event.at + model::from_seconds(c.command.motion->motion().duration());
-      if (c.cancel_requested) status.text = "it had started when it was to be given up";
-      publish(status, out);
+      if (c.start_told) return out;
+      c.start_told = true;
+      r.known_at = std::max(r.known_at, std::min(event.at, now));
+      begin(r, {event.at - uncertainty, event.at + uncertainty}, out);
       break;
     case ExecutionState::completed: {
       status.state = CommandState::completed;
@@ -327,6 +382,7 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
       ++completed_;
       const model::Joints promised = c.command.motion->motion().to();
       const bool arrived = (event.joints - promised).cwiseAbs().maxCoeff() <= kSamePlace;
+      r.known_at = std::max(r.known_at, std::min(event.at, now));
       r.committed.reset();
       stand_at(r, arrived ? promised : event.joints, now, out);
       if (!arrived) revoke_dependents(*index, out);
@@ -357,6 +413,7 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
       publish(status, out);
       if (c.phase != Commitment::Phase::started) r.last_started = c.serial;
       revoke_dependents(*index, out);
+      r.known_at = std::max(r.known_at, std::min(event.at, now));
       r.committed.reset();
       stand_at(r, event.joints, now, out);
       revoke_dependents(*index, out);
@@ -372,11 +429,7 @@ void Planner::notice_silence(Instant now, Decisions& out) {
       r.heard = false;
       revoke_dependents(index_of(r), out);
     }
-    if (r.committed && r.committed->phase == Commitment::Phase::dispatched && now > r.committed->start_until + kGrace && !r.lost()) {
-      // Heard from, standing still, and past its window: it did not start and will not.
-      put_back(r, Reason::refused_by_proxy, "planned again, the proxy did not say what became of it", out);
-      revoke_dependents(index_of(r), out);
-    }
+    if (const auto outcome = unreported_outcome(r, now)) append(on(*outcome, now), out);
   }
 }
 
@@ -420,8 +473,7 @@ bool Planner::try_commit(RobotRecord& r, Instant now, Decisions& out) {
     publish(head.status, out);
     return false;
   }
-  const Candidate candidate{index_of(r), head.motion,
-                            options_.start_tolerance + model::from_seconds(r.robot->controller.latest_start())};
+  const Candidate candidate{index_of(r), head.motion, options_.start_tolerance + model::from_seconds(r.robot->controller.latest_start())};
   std::vector<Neighbour> neighbours;
   for (RobotRecord& other : robots_) {
     if (&other != &r) neighbours.push_back(other.as_neighbour(index_of(other), now));
@@ -482,10 +534,9 @@ void Planner::send_due(Instant now, Decisions& out) {
     }
     if (c.phase != Commitment::Phase::held) continue;
     const Departures departures = departures_of(c);
-    if (departures == Departures::broken) {
-      put_back(r, Reason::none, {}, out);
-    } else if (now > c.start_from || (departures == Departures::met && (r.lost() || !r.ready))) {
-      put_back(r, Reason::none, {}, out);  // too late for a start that was proven for this window
+    const bool too_late = now > c.start_from;
+    if (departures == Departures::broken || too_late || r.lost() || !r.ready) {
+      put_back(r, Reason::none, {}, out);  // what its window was proven for no longer holds
     } else if (now >= c.start_from - options_.lead && departures == Departures::met) {
       ++c.command.attempts;
       c.phase = Commitment::Phase::dispatched;
@@ -520,7 +571,7 @@ std::optional<Instant> Planner::next_deadline() const {
       consider(departures_of(c) == Departures::met ? c.start_from - options_.lead : c.start_from + Duration{1});
     } else if (c.phase == Commitment::Phase::dispatched) {
       if (!c.accepted && c.sent + options_.answer_timeout <= c.start_until) consider(c.sent + options_.answer_timeout);
-      if (!r.lost()) consider(c.start_until + kGrace + Duration{1});
+      if (!r.lost() && r.stood && r.stood->at > c.start_until) consider(c.start_until + kGrace + Duration{1});
     }
   }
   return next;
@@ -545,10 +596,10 @@ model::PlannerState Planner::state(Instant now) const {
       status.text = current->text;
       status.conflicts = current->conflicts;
     }
-    status.mode = r.lost()                                                                ? RobotMode::unknown
+    status.mode = r.lost()                                                          ? RobotMode::unknown
                   : r.committed && r.committed->phase == Commitment::Phase::started ? RobotMode::moving
-                  : current                                                               ? RobotMode::commanded
-                                                                                          : RobotMode::standby;
+                  : current                                                         ? RobotMode::commanded
+                                                                                    : RobotMode::standby;
     s.robots.push_back(std::move(status));
   }
   return s;

@@ -17,14 +17,14 @@ namespace interlace::core {
 /// What a planner is told once. Defaults are those of virtual time, where messages take none.
 struct PlannerOptions {
   std::string strategy = "event";
-  Duration lead{};             ///< shortest time from a decision to a start
-  Duration start_tolerance{};  ///< window given to a proxy beyond its controller's own latency and jitter
-  Duration confirm{};          ///< from a start until the planner has surely heard of it
-  std::optional<Duration> posture_timeout;  ///< a robot silent for longer is lost; empty: never
+  Duration lead{};                                           ///< shortest time from a decision to a start
+  Duration start_tolerance{};                                ///< window given to a proxy beyond its controller's own latency and jitter
+  Duration confirm{};                                        ///< from a start until the planner has surely heard of it
+  std::optional<Duration> posture_timeout;                   ///< a robot silent for longer is lost; empty: never
   Duration answer_timeout = std::chrono::milliseconds{100};  ///< a dispatch unanswered for longer is sent again
-  std::size_t queue_limit = 1000;          ///< waiting commands per robot
-  std::size_t remembered = 10000;          ///< finished commands that are still answered by id
-  std::function<double()> stopwatch;       ///< elapsed [s], for statistics only
+  std::size_t queue_limit = 1000;                            ///< waiting commands per robot
+  std::size_t remembered = 10000;                            ///< finished commands that are still answered by id
+  std::function<double()> stopwatch;                         ///< elapsed [s], for statistics only
 };
 
 /// What to do and to say, in order.
@@ -74,6 +74,8 @@ class Planner {
   // Robots
   void stand_at(RobotRecord& r, const model::Joints& q, Instant now, Decisions& out);
   void put_back(RobotRecord& r, model::Reason why, const std::string& text, Decisions& out);
+  void begin(RobotRecord& r, const StartInterval& start, Decisions& out);
+  [[nodiscard]] static std::optional<model::ExecutionReported> unreported_outcome(const RobotRecord& r, Instant now);
   void revoke_dependents(model::RobotIndex robot, Decisions& out);
   [[nodiscard]] model::RobotIndex index_of(const RobotRecord& r) const { return static_cast<model::RobotIndex>(&r - robots_.data()); }
 

@@ -6,7 +6,9 @@ const model::Joints& RobotRecord::joints_before_queue() const {
   return committed ? committed->command.motion->motion().to() : standing->motion().to();
 }
 
-const model::Joints& RobotRecord::joints_at_end() const { return queue.empty() ? joints_before_queue() : queue.back().motion->motion().to(); }
+const model::Joints& RobotRecord::joints_at_end() const {
+  return queue.empty() ? joints_before_queue() : queue.back().motion->motion().to();
+}
 
 Neighbour RobotRecord::as_neighbour(model::RobotIndex index, Instant now) const {
   Neighbour n;

@@ -25,26 +25,29 @@ struct Commitment {
   };
   QueuedCommand command;
   Phase phase = Phase::held;
-  std::uint64_t serial = 0;  ///< tells commitments of one robot apart
-  Instant start_from{};      ///< planned start, or the earliest it can have been
-  Instant start_until{};     ///< latest start
+  std::uint64_t serial = 0;                                             ///< tells commitments of one robot apart
+  Instant start_from{};                                                 ///< planned start, or the earliest it can have been
+  Instant start_until{};                                                ///< latest start
   std::vector<std::pair<model::RobotIndex, std::uint64_t>> departures;  ///< commitments that must have started before this is sent
   bool cancel_requested = false;
-  bool accepted = false;     ///< the proxy has confirmed the dispatch
-  Instant sent{};            ///< when the dispatch was last sent
+  bool accepted = false;    ///< the proxy has confirmed the dispatch
+  bool start_told = false;  ///< the proxy has reported the start; a posture alone shows only that it has begun
+  Instant sent{};           ///< when the dispatch was last sent
 };
 
 /// Everything the planner knows of one robot.
 struct RobotRecord {
   const model::Robot* robot = nullptr;
   model::RobotMode mode = model::RobotMode::unknown;
-  bool heard = false;  ///< a posture came and is not older than the time-out
-  bool ready = true;   ///< its controller would accept a command
+  bool heard = false;    ///< a posture came and is not older than the time-out
+  bool ready = true;     ///< its controller would accept a command
   bool foreign = false;  ///< moves although nobody here told it to
   Instant last_heard{};
-  SampledMotionPtr standing;            ///< where it stands, or stood when its motion began
-  std::deque<QueuedCommand> queue;      ///< main queue: admitted, in order
-  std::optional<Commitment> committed;  ///< at most one at a time
+  Instant known_at = model::kEarliest;          ///< newest instant that any report tells of; an older posture says nothing any more
+  std::optional<model::PostureReported> stood;  ///< newest posture that saw it standing
+  SampledMotionPtr standing;                    ///< where it stands, or stood when its motion began
+  std::deque<QueuedCommand> queue;              ///< main queue: admitted, in order
+  std::optional<Commitment> committed;          ///< at most one at a time
   std::uint64_t last_serial = 0;
   std::uint64_t last_started = 0;  ///< serial of the newest commitment that began
   Instant ready_since{};           ///< since when the head of the queue could have gone

@@ -25,9 +25,9 @@ struct ForbiddenStart {
 /// When the moving robot of a map starts, and how far both robots may be from their predictions.
 struct StartUncertainty {
   Instant moving_from{}, moving_until{};  ///< its start lies in between
-  double moving_stretch = 0;     ///< relative error of its duration
-  double commanded_stretch = 0;  ///< relative error of the commanded robot's
-  Duration commanded_tolerance{};  ///< the commanded robot starts at most this much later than planned
+  double moving_stretch = 0;              ///< relative error of its duration
+  double commanded_stretch = 0;           ///< relative error of the commanded robot's
+  Duration commanded_tolerance{};         ///< the commanded robot starts at most this much later than planned
 };
 
 /// Starts of the commanded robot that each blocked cell forbids: a cell [t0,t1]×[τ0,τ1] forbids [t0 − τ1, t1 − τ0] after the moving robot's

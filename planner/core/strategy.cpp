@@ -91,8 +91,7 @@ class Event final : public Strategy {
     auto forbidden = forbidden_starts(map, u);
     if (n.committed && !n.started) {
       // The neighbour may yet fail to start. Where that would leave it in the way, its departure must be known before we leave.
-      const auto in_the_way =
-          std::find_if(map.blocked.begin(), map.blocked.end(), [](const BlockedCell& c) { return c.t0 == -kNever; });
+      const auto in_the_way = std::find_if(map.blocked.begin(), map.blocked.end(), [](const BlockedCell& c) { return c.t0 == -kNever; });
       if (in_the_way != map.blocked.end()) {
         a.departures.push_back(n.robot);
         const Instant until = n.overdue ? model::kForever : n.start_until + timing.confirm;

@@ -42,12 +42,12 @@ class MapStore {
 /// Another robot as a candidate has to see it.
 struct Neighbour {
   model::RobotIndex robot = 0;
-  SampledMotionPtr motion;  ///< its committed motion, or its standing posture
+  SampledMotionPtr motion;              ///< its committed motion, or its standing posture
   Instant start_from{}, start_until{};  ///< of a committed motion
-  bool committed = false;   ///< has a motion that it will carry out or is carrying out
-  bool started = false;     ///< that motion was reported as begun
-  bool overdue = false;     ///< its start window has passed and nobody knows whether it began
-  bool lost = false;        ///< could be anywhere in its reach
+  bool committed = false;               ///< has a motion that it will carry out or is carrying out
+  bool started = false;                 ///< that motion was reported as begun
+  bool overdue = false;                 ///< its start window has passed and nobody knows whether it began
+  bool lost = false;                    ///< could be anywhere in its reach
 };
 
 /// A robot that stands, with the motion it should make next.
@@ -68,8 +68,8 @@ struct Assessment {
 
 /// Times the planner must keep around a decision.
 struct Timing {
-  Instant earliest{};   ///< no start before: now + lead
-  Duration confirm{};   ///< from a neighbour's latest start until the planner has surely heard of it and can act on it
+  Instant earliest{};  ///< no start before: now + lead
+  Duration confirm{};  ///< from a neighbour's latest start until the planner has surely heard of it and can act on it
 };
 
 /// How starts are chosen. Stateless; one object serves all robots of a cell.

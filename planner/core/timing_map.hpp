@@ -13,11 +13,11 @@ inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// A rectangle of the plane (t, τ) that is not proven free. Times [s] local to each motion; −∞ and +∞ where a robot stands.
 struct BlockedCell {
-  double t0 = 0, t1 = 0;      ///< of the moving robot
-  double tau0 = 0, tau1 = 0;  ///< of the commanded robot
+  double t0 = 0, t1 = 0;                       ///< of the moving robot
+  double tau0 = 0, tau1 = 0;                   ///< of the commanded robot
   std::uint16_t own_body = 0, other_body = 0;  ///< the pair that blocks, as indices of the models' capsules
-  double clearance = 0;  ///< of that pair at the cell's centre [m]
-  double bound = 0;      ///< how far that pair may approach inside the cell beyond its centre [m]
+  double clearance = 0;                        ///< of that pair at the cell's centre [m]
+  double bound = 0;                            ///< how far that pair may approach inside the cell beyond its centre [m]
 };
 
 /// Collision timing map of one commanded and one moving (or standing) robot, in both motions' local times, so it holds wherever the two

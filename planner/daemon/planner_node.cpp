@@ -23,7 +23,9 @@ constexpr std::chrono::milliseconds kPostureTimeout{500};
 constexpr std::chrono::milliseconds kStateOnChange{50};  // the state follows changes no faster than this
 constexpr std::size_t kDecisionsKept = 100'000;
 
-double elapsed_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double elapsed_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 std::uint64_t random_incarnation() {
   std::random_device device;
@@ -93,7 +95,10 @@ void PlannerNode::run() {
   }
   const auto decisions = app::statistics_of(decision_times_);
   log(LogLevel::info, "stopped",
-      {{"decisions", decisions.count}, {"decision_p50_ms", decisions.p50}, {"decision_p99_ms", decisions.p99}, {"decision_max_ms", decisions.max}});
+      {{"decisions", decisions.count},
+       {"decision_p50_ms", decisions.p50},
+       {"decision_p99_ms", decisions.p99},
+       {"decision_max_ms", decisions.max}});
 }
 
 template <typename Event>
@@ -124,7 +129,8 @@ void PlannerNode::take_posture(Link& link, const dds::PostureMessage& m) {
   if (!same_cell || !in_charge) {
     if (link.stranger_logged != m.proxy_incarnation) {
       log(LogLevel::error, "proxy_ignored",
-          {{"robot", link.robot.str()}, {"why", same_cell ? "another proxy of this robot is working" : "its cell file differs from the planner's"}});
+          {{"robot", link.robot.str()},
+           {"why", same_cell ? "another proxy of this robot is working" : "its cell file differs from the planner's"}});
       link.stranger_logged = m.proxy_incarnation;
     }
     return;
@@ -135,11 +141,16 @@ void PlannerNode::take_posture(Link& link, const dds::PostureMessage& m) {
   }
   link.proxy = ProxyEcho{m.proxy_incarnation, m.proxy_sent, t};
   model::PostureReported posture = m.posture;
-  if (m.planner_incarnation != incarnation_) posture.at = t;  // the proxy does not know our time yet
+  if (m.planner_incarnation != incarnation_) {
+    posture.at = t;         // the proxy does not know our time yet,
+    posture.ready = false;  // so it could not keep a start window
+  }
   decide(posture);
 }
 
-PlannerNode::Link& PlannerNode::link_of(const model::RobotName& robot) { return *links_[cell_->find(robot).value()]; }
+PlannerNode::Link& PlannerNode::link_of(const model::RobotName& robot) {
+  return *links_[cell_->find(robot).value()];
+}
 
 dds::DispatchMessage PlannerNode::envelope() const {
   dds::DispatchMessage message;
@@ -166,8 +177,12 @@ void PlannerNode::publish(const core::Decisions& decisions) {
     message.order = d;
     send(link_of(d.robot).dispatches, message);
     log(LogLevel::info, "dispatched",
-        {{"robot", d.robot.str()}, {"command", d.id.str()}, {"attempt", d.attempt}, {"earliest_s", model::to_seconds(d.earliest)},
-         {"latest_s", model::to_seconds(d.latest)}, {"duration_s", d.duration}});
+        {{"robot", d.robot.str()},
+         {"command", d.id.str()},
+         {"attempt", d.attempt},
+         {"earliest_s", model::to_seconds(d.earliest)},
+         {"latest_s", model::to_seconds(d.latest)},
+         {"duration_s", d.duration}});
   }
   for (const auto& s : decisions.statuses) {
     if (cell_->find(s.robot)) send(link_of(s.robot).statuses, dds::StatusMessage{incarnation_, s});
@@ -207,7 +222,8 @@ void PlannerNode::send_state() {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const bool known = s.robots[i].mode != model::RobotMode::unknown;
     const bool was_known = links_[i]->mode != model::RobotMode::unknown;
-    if (known != was_known) log(known ? LogLevel::info : LogLevel::warning, known ? "robot_known" : "robot_lost", {{"robot", links_[i]->robot.str()}});
+    if (known != was_known)
+      log(known ? LogLevel::info : LogLevel::warning, known ? "robot_known" : "robot_lost", {{"robot", links_[i]->robot.str()}});
     links_[i]->mode = s.robots[i].mode;
   }
   if (!states_.write(s)) log(LogLevel::error, "not_sent", {{"topic", states_.name()}, {"why", states_.last_refusal()}});
@@ -218,7 +234,8 @@ void PlannerNode::log_refusals() {
   for (auto& link : links_) {
     const auto refused = link->commands.counters().refused + link->executions.counters().refused + link->postures.counters().refused;
     if (refused == link->refusals_logged) continue;
-    for (const dds::ReaderBase* reader : std::initializer_list<const dds::ReaderBase*>{&link->commands, &link->executions, &link->postures}) {
+    for (const dds::ReaderBase* reader :
+         std::initializer_list<const dds::ReaderBase*>{&link->commands, &link->executions, &link->postures}) {
       if (reader->counters().last_refusal.empty()) continue;
       log(LogLevel::warning, "sample_refused",
           {{"topic", reader->name()}, {"total", reader->counters().refused}, {"last", reader->counters().last_refusal}});

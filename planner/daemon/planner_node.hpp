@@ -54,7 +54,7 @@ class PlannerNode {
     dds::Writer<dds::DispatchMessage> dispatches;
     std::optional<ProxyEcho> proxy;
     std::uint64_t refusals_logged = 0;
-    std::uint64_t stranger_logged = 0;  // incarnation of the last proxy that was not listened to
+    std::uint64_t stranger_logged = 0;                  // incarnation of the last proxy that was not listened to
     model::RobotMode mode = model::RobotMode::unknown;  // as last logged
   };
 

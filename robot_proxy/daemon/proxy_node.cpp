@@ -14,7 +14,8 @@ using app::LogLevel;
 namespace {
 
 constexpr model::Duration kConnectTimeout = std::chrono::seconds{10};
-constexpr model::Duration kPlannerSilence = std::chrono::seconds{1};  // after which another planner is obeyed
+constexpr model::Duration kFarewell = std::chrono::milliseconds{250};  // what was written last goes with its writer: time to be sent again
+constexpr model::Duration kPlannerSilence = std::chrono::seconds{1};   // after which another planner is obeyed
 
 std::uint64_t random_incarnation() {
   std::random_device device;
@@ -67,7 +68,9 @@ void ProxyNode::run() {
       publish_posture();
       next_posture_ = std::max(next_posture_ + dds::kPosturePeriod, now());
     }
-    if (leaving() && !executor_->running() && !executor_->waiting()) break;
+    const bool idle = !executor_->running() && !executor_->waiting();
+    if (leaving() && idle && !farewell_) farewell_ = now() + kFarewell;
+    if (farewell_ && now() >= *farewell_) break;
   }
   log(LogLevel::info, "stopped", {{"robot", robot_.str()}, {"in_motion", executor_->running() != nullptr}});
 }

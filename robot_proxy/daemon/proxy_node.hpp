@@ -69,6 +69,7 @@ class ProxyNode {
   std::uint64_t stranger_logged_ = 0;
   std::uint64_t refusals_logged_ = 0;
   LocalTime next_posture_{};
+  std::optional<LocalTime> farewell_;  // when to go, once told to and idle
   std::atomic<int> stops_{0};
 };
 
