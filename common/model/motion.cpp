@@ -90,8 +90,16 @@ void Motion::displacement(double t0, double centre, double t1, std::vector<doubl
 
 void Motion::line_displacement(const Line& line, double t0, double centre, double t1, std::vector<double>& out) const {
   // The laws are monotone, so the ends of the interval are the farthest from its centre.
-  const auto sweep = [&](const TimeLaw& law) { return std::max(law.at(t1) - law.at(centre), law.at(centre) - law.at(t0)); };
-  displacement_by_hand(robot_->model, line.branch, joints(centre), {sweep(line.translation), sweep(line.rotation)}, out);
+  HandSweep hand;
+  const Vector3 way = line.p_BT1 - line.p_BT0;
+  const Vector3 direction = line.translation.distance() > 0 ? Vector3{way.normalized()} : Vector3::Zero();
+  hand.tcp = {direction * (line.translation.at(t0) - line.translation.at(centre)),
+              direction * (line.translation.at(t1) - line.translation.at(centre))};
+  const Quaternion whole = line.q_BT1 * line.q_BT0.conjugate();
+  const Vector3 axis = whole.w() < 0 ? Vector3{-whole.vec()} : Vector3{whole.vec()};  // slerp takes the shorter way
+  if (axis.norm() > 0) hand.axis = axis.normalized();
+  hand.turn = {line.rotation.at(t0) - line.rotation.at(centre), line.rotation.at(t1) - line.rotation.at(centre)};
+  displacement_by_hand(robot_->model, line.branch, joints(centre), hand, out);
 }
 
 void Motion::joint_displacement(double t0, double centre, double t1, std::vector<double>& out) const {

@@ -35,9 +35,56 @@ double azimuth_sweep(double tilt, double s) {
   return tilt < kPi / 2 && std::sin(tilt) < s ? std::asin(std::sin(tilt) / s) : kPi;
 }
 
+/// Largest and smallest of a linear function over a wrist sweep.
+struct Range {
+  double low, high;
+};
+Range along(const WristSweep& wrist, const Vector3& direction) {
+  Range range{0, 0};
+  for (const Vector3& corner : wrist.corners) {
+    range.low = std::min(range.low, direction.dot(corner));
+    range.high = std::max(range.high, direction.dot(corner));
+  }
+  return {range.low - wrist.sag, range.high + wrist.sag};
+}
+
+/// Distances from the origin to a box, nearest and farthest.
+Range distances(const Range& x, const Range& z) {
+  const double nearest = std::hypot(std::max({x.low, -x.high, 0.0}), std::max({z.low, -z.high, 0.0}));
+  const double farthest = std::hypot(std::max(-x.low, x.high), std::max(-z.low, z.high));
+  return {nearest, farthest};
+}
+
+/// Largest angle at the origin between the direction of (x, z) and any point of a box around it that does not hold the origin.
+double angle_to_box(double x, double z, const Range& box_x, const Range& box_z) {
+  double largest = 0;
+  for (const double corner_x : {box_x.low, box_x.high}) {
+    for (const double corner_z : {box_z.low, box_z.high}) {
+      largest = std::max(largest, std::abs(std::atan2(x * corner_z - z * corner_x, x * corner_x + z * corner_z)));
+    }
+  }
+  return largest;
+}
+
+/// The wrist centre of an arm whose TCP and orientation move as `hand` says; `p_TcpWrist` at the centre, in base axes [m].
+WristSweep wrist_sweep(const HandSweep& hand, const Vector3& p_TcpWrist) {
+  std::array<Vector3, 2> turned;
+  for (std::size_t i = 0; i < 2; ++i) turned[i] = Eigen::AngleAxisd{hand.turn[i], hand.axis} * p_TcpWrist - p_TcpWrist;
+  WristSweep wrist;
+  wrist.corners = {hand.tcp[0] + turned[0], hand.tcp[0] + turned[1], hand.tcp[1] + turned[0], hand.tcp[1] + turned[1]};
+  wrist.sag = p_TcpWrist.norm() * (1 - std::cos(std::min(kPi, (hand.turn[1] - hand.turn[0]) / 2)));  // of the arc from its chord
+  return wrist;
+}
+
 }  // namespace
 
-JointSweep joint_sweep(const Kinematics& kinematics, const Branch& branch, const Joints& q, double wrist, double rotation) {
+double WristSweep::radius() const {
+  double largest = 0;
+  for (const Vector3& corner : corners) largest = std::max(largest, corner.norm());
+  return largest + sag;
+}
+
+JointSweep joint_sweep(const Kinematics& kinematics, const Branch& branch, const Joints& q, const WristSweep& wrist, double rotation) {
   const OpwParameters& p = kinematics.parameters();
   const double k = kinematics.forearm_length();
   JointSweep sweep = JointSweep::Constant(kPi);
@@ -45,26 +92,39 @@ JointSweep joint_sweep(const Kinematics& kinematics, const Branch& branch, const
   const Vector3 p_BW = X[4].translation();
   const auto arm = kinematics.triangle(p_BW, branch.shoulder);
   const double r = std::hypot(p_BW.x(), p_BW.y());
-  if (!arm || r - wrist <= std::abs(p.b)) return sweep;  // the wrist may reach axis 1: any posture is possible
+  if (!arm || r <= 0) return sweep;
+
+  // Seen from above: how far outwards, inwards and sideways the wrist may go.
+  const Vector3 outwards{p_BW.x() / r, p_BW.y() / r, 0};
+  const Vector3 sideways{-outwards.y(), outwards.x(), 0};
+  const Range out = along(wrist, outwards);
+  const Range side = along(wrist, sideways);
+  const double r_min = r + out.low;
+  if (r_min <= std::abs(p.b)) return sweep;  // the wrist may reach axis 1: any posture is possible
+  const double r_max = std::hypot(r + out.high, std::max(-side.low, side.high));
 
   // Axis 1: azimuth of the wrist, and the angle the lateral offset takes from it.
-  const double radial_min = std::sqrt((r - wrist) * (r - wrist) - p.b * p.b);
-  const double radial_max = std::sqrt((r + wrist) * (r + wrist) - p.b * p.b);
   const double radial = std::abs(arm->radial);
+  const double radial_min = std::sqrt(r_min * r_min - p.b * p.b);
+  const double radial_max = std::sqrt(r_max * r_max - p.b * p.b);
   const double lateral = std::atan2(p.b, radial);
-  sweep[0] = std::asin(std::min(1.0, wrist / r)) +
+  sweep[0] = angle_to_box(r, 0, {r_min, r + out.high}, side) +
              std::max(std::abs(std::atan2(p.b, radial_min) - lateral), std::abs(std::atan2(p.b, radial_max) - lateral));
 
-  // In the arm's plane: how far the wrist moves there, then direction and triangle.
-  const double planar = p.b == 0 ? wrist : std::hypot(std::max(radial_max - radial, radial - radial_min), wrist);
-  const double direction = planar < arm->distance ? std::asin(planar / arm->distance) : kPi;
-  const double d_min = std::clamp(arm->distance - planar, std::abs(p.c2 - k), p.c2 + k);
-  const double d_max = std::clamp(arm->distance + planar, std::abs(p.c2 - k), p.c2 + k);
-  const auto at_shoulder = [&](double d) {  // angle between upper arm and shoulder → wrist
-    return d > 0 ? std::acos(std::clamp((d * d + p.c2 * p.c2 - k * k) / (2 * d * p.c2), -1.0, 1.0)) : kPi;
+  // In the arm's plane: the box the wrist stays in, seen from the shoulder; then direction and triangle.
+  const bool front = branch.shoulder == Branch::Shoulder::front;
+  const Range box_x = front ? Range{radial_min - p.a1, radial_max - p.a1} : Range{-radial_max - p.a1, -radial_min - p.a1};
+  const Range rise = along(wrist, Vector3::UnitZ());
+  const Range box_z{arm->z + rise.low, arm->z + rise.high};
+  const Range d = distances(box_x, box_z);
+  const double direction = d.low > 0 ? angle_to_box(arm->x, arm->z, box_x, box_z) : kPi;
+  const double d_min = std::clamp(d.low, std::abs(p.c2 - k), p.c2 + k);
+  const double d_max = std::clamp(d.high, std::abs(p.c2 - k), p.c2 + k);
+  const auto at_shoulder = [&](double reach) {  // angle between upper arm and shoulder → wrist
+    return reach > 0 ? std::acos(std::clamp((reach * reach + p.c2 * p.c2 - k * k) / (2 * reach * p.c2), -1.0, 1.0)) : kPi;
   };
-  const auto at_elbow = [&](double d) {  // bend of the elbow
-    return std::acos(std::clamp((d * d - p.c2 * p.c2 - k * k) / (2 * p.c2 * k), -1.0, 1.0));
+  const auto at_elbow = [&](double reach) {  // bend of the elbow
+    return std::acos(std::clamp((reach * reach - p.c2 * p.c2 - k * k) / (2 * p.c2 * k), -1.0, 1.0));
   };
   const double shoulder = at_shoulder(arm->distance);
   double triangle = std::max(std::abs(at_shoulder(d_min) - shoulder), std::abs(at_shoulder(d_max) - shoulder));
@@ -99,9 +159,12 @@ void displacement_by_hand(const RobotModel& model, const Branch& branch, const J
   const LinkFrames X = model.kinematics.forward(q);
   const Vector3 p_BW = X[4].translation();
   const Vector3 p_BT = X[6] * model.X_FT.translation();
-  const double turn = std::min(2.0, hand.rotation);  // chord of the rotation at unit radius
-  const double wrist = hand.tcp + turn * (p_BW - p_BT).norm();
-  const JointSweep sweep = joint_sweep(model.kinematics, branch, q, wrist, hand.rotation);
+  const double tcp = std::max(hand.tcp[0].norm(), hand.tcp[1].norm());
+  const double rotation = std::max(-hand.turn[0], hand.turn[1]);
+  const double turn = std::min(2.0, rotation);  // chord of the rotation at unit radius
+  const WristSweep where = wrist_sweep(hand, p_BW - p_BT);
+  const double wrist = std::min(tcp + turn * (p_BW - p_BT).norm(), where.radius());
+  const JointSweep sweep = joint_sweep(model.kinematics, branch, q, where, rotation);
   const double forearm_turn = std::min(2.0, sweep[0] + sweep[1] + sweep[2]);
 
   const auto bound = [&](std::size_t link, const Vector3& p) {
@@ -113,7 +176,7 @@ void displacement_by_hand(const RobotModel& model, const Branch& branch, const J
       const double roll = std::min(2.0, sweep[3]) * distance_to_axis(p, p_BW, X[3].linear().col(2));
       return std::min(from_base, wrist + forearm_turn * from_wrist_centre + roll);
     }
-    const double rigid = hand.tcp + turn * (p - p_BT).norm();
+    const double rigid = tcp + turn * (p - p_BT).norm();
     const double on_flange = from_wrist_centre < 1e-12 ? wrist : std::min(rigid, wrist + turn * from_wrist_centre);
     if (link == 6) return on_flange;
     return on_flange + std::min(2.0, sweep[5]) * distance_to_axis(p, p_BW, X[6].linear().col(2));  // link 5: the flange without its turn

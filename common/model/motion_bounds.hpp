@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "common/model/robot_model.hpp"
@@ -9,15 +10,26 @@ namespace interlace::model {
 /// Largest change of each joint angle [rad] inside an interval, from its value at the interval's centre. π stands for "any".
 using JointSweep = Joints;
 
-/// How far the hand may be from where it is at the centre of an interval: the exact bounds a straight line's time laws give.
+/// Where the hand may be inside a piece of a straight line, seen from the piece's centre, in the base frame. Before the centre it is
+/// between `tcp[0]`, `turn[0]` and the centre, after it between the centre and `tcp[1]`, `turn[1]`; both change at their own pace.
 struct HandSweep {
-  double tcp = 0;       ///< of the TCP [m]
-  double rotation = 0;  ///< of the orientation [rad]
+  std::array<Vector3, 2> tcp{Vector3::Zero(), Vector3::Zero()};  ///< displacement of the TCP at both ends [m]
+  Vector3 axis = Vector3::UnitZ();                               ///< unit axis of the rotation
+  std::array<double, 2> turn{};                                  ///< angle about it at both ends, ≤ 0 and ≥ 0 [rad]
 };
 
-/// Bounds of the joints' sweep for an arm that is at `q` (in `branch`) at the centre and whose wrist centre stays within `wrist` [m] of
-/// there while its flange's orientation stays within `rotation` [rad]. Proof: docs/certificate.md, section 2.
-[[nodiscard]] JointSweep joint_sweep(const Kinematics& kinematics, const Branch& branch, const Joints& q, double wrist, double rotation);
+/// Where the wrist centre may be, seen from its place at the piece's centre: within `sag` [m] of the convex hull of `corners` [m], which
+/// holds the origin to within `sag`.
+struct WristSweep {
+  std::array<Vector3, 4> corners;
+  double sag = 0;
+  [[nodiscard]] double radius() const;  ///< of a ball that holds it all [m]
+};
+
+/// Bounds of the joints' sweep for an arm that is at `q` (in `branch`) at the centre and whose wrist centre stays within `wrist` while its
+/// flange's orientation stays within `rotation` [rad] of there. Proof: docs/certificate.md, section 2.
+[[nodiscard]] JointSweep joint_sweep(const Kinematics& kinematics, const Branch& branch, const Joints& q, const WristSweep& wrist,
+                                     double rotation);
 
 /// Displacement bound [m] of every point of each capsule, from the sweep of the joints alone.
 /// Proof: docs/certificate.md, section 1.
