@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/core/collision_map.hpp"
+#include "planner/core/reach.hpp"
+#include "planner/core/strategy.hpp"
+#include "tests/support/motions.hpp"
+
+/// The parts that maps are made of and what is made of maps.
+namespace interlace::test {
+namespace {
+
+using core::kNever;
+using core::SampledMotion;
+
+core::SampledMotionPtr sampled(const model::Robot& robot, const model::Joints& from, const model::Pose& X_WT, double resolution = 0.01) {
+  return std::make_shared<SampledMotion>(model::plan_motion(robot, from, line_to(X_WT)).value(), resolution);
+}
+
+TEST(SampledMotion, PiecesOfALevelCoverTheDurationWithoutGaps) {
+  const auto cell = experiment_cell();
+  const auto motion = sampled(cell->robots[0], cell->robots[0].start, pose_mm(350, 0, 200));
+  for (int level = 0; level <= motion->depth(); level += 3) {
+    const std::size_t count = std::size_t{1} << level;
+    double end = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& piece = motion->piece(level, i);
+      EXPECT_NEAR(piece.t0, end, 1e-12);
+      EXPECT_NEAR(piece.centre, (piece.t0 + piece.t1) / 2, 1e-12);
+      ASSERT_EQ(piece.reach.size(), piece.bodies.size());
+      for (const double reach : piece.reach) EXPECT_LE(reach, piece.largest_reach);
+      end = piece.t1;
+    }
+    EXPECT_NEAR(end, motion->motion().duration(), 1e-9);
+  }
+  EXPECT_LE(motion->motion().duration() / std::pow(2.0, motion->depth()), 0.01);
+}
+
+TEST(SampledMotion, StandingHasOnePieceThatDoesNotMove) {
+  const auto cell = experiment_cell();
+  SampledMotion still{model::Motion::rest(cell->robots[0], cell->robots[0].start), 0.01};
+  EXPECT_EQ(still.depth(), 0);
+  EXPECT_EQ(still.piece(0, 0).largest_reach, 0);
+  EXPECT_EQ(&still.at_start(), &still);
+  EXPECT_EQ(&still.at_end(), &still);
+}
+
+TEST(TimingMap, OfTwoThatStandTogetherBlocksForEver) {
+  const auto cell = experiment_cell();
+  const auto in = sampled(cell->robots[1], cell->robots[1].start, pose_mm(350, 0, 200));
+  const auto out = sampled(cell->robots[0], cell->robots[0].start, pose_mm(350, 0, 200));
+  SampledMotion there{model::Motion::rest(cell->robots[0], out->motion().to()), 0.01};
+  const auto map = core::build_timing_map(*in, there, 0);
+  ASSERT_FALSE(map.blocked.empty());
+  EXPECT_EQ(map.blocked.back().tau1, kNever);
+  EXPECT_EQ(map.blocked.back().t1, kNever);
+  std::vector<core::StartInterval> forbidden;
+  for (const auto& f : core::forbidden_starts(map, {})) forbidden.push_back(f.interval);
+  EXPECT_TRUE(core::complement(core::united(forbidden), core::Instant{}).empty());
+}
+
+TEST(TimingMap, AMarginOnlyAddsBlockedStarts) {
+  const auto cell = experiment_cell();
+  const auto a = sampled(cell->robots[0], cell->robots[0].start, pose_mm(400, 60, 250));
+  const auto b = sampled(cell->robots[1], cell->robots[1].start, pose_mm(400, -60, 250));
+  EXPECT_GE(core::build_timing_map(*a, *b, 0.05).blocked.size(), core::build_timing_map(*a, *b, 0).blocked.size());
+  EXPECT_FALSE(core::build_timing_map(*a, *b, 0.3).blocked.empty());
+}
+
+TEST(CollisionMap, ShowsTheTravellingLengthOfTheCommandedRobot) {
+  const auto cell = experiment_cell();
+  const auto a = sampled(cell->robots[0], cell->robots[0].start, pose_mm(350, 0, 200));
+  const auto b = sampled(cell->robots[1], cell->robots[1].start, pose_mm(350, 0, 200));
+  const auto map = core::build_timing_map(*a, *b, 0);
+  const auto areas = core::collision_map(map, a->motion());
+  ASSERT_EQ(areas.size(), map.blocked.size());
+  ASSERT_FALSE(areas.empty());
+  const double whole = a->motion().length(a->motion().duration());
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    EXPECT_LE(areas[i].length0, areas[i].length1);
+    EXPECT_GE(areas[i].length0, 0);
+    EXPECT_LE(areas[i].length1, whole + 1e-12);
+    EXPECT_EQ(areas[i].t0, map.blocked[i].t0);
+    EXPECT_TRUE(map.blocked[i].tau1 != kNever || areas[i].length1 == whole);
+  }
+}
+
+TEST(Reach, OfANeighbourIsEnteredAndOfAFarRobotIsNot) {
+  const auto cell = experiment_cell(true);
+  const auto motion = sampled(cell->robots[0], cell->robots[0].start, pose_mm(300, 250, 330));
+  EXPECT_TRUE(core::enters_reach(*motion, cell->robots[1]));
+  EXPECT_FALSE(core::enters_reach(*motion, cell->robots[2]));
+}
+
+/// Nothing a robot can do takes any of its points out of the reach that a lost robot is given.
+TEST(Reach, HoldsEveryPostureOfAnyArm) {
+  Seed seed{10};
+  for (int i = 0; i < 3000; ++i) {
+    const model::Robot other = robot_at("other", random_arm(seed), random_point(seed, 0.5), seed.uniform(-kPi, kPi));
+    std::vector<model::Capsule> bodies;
+    model::place_capsules(other.model, other.X_WB, random_joints(seed, other.model), bodies);
+    // A probe: a robot whose only body is a ball that touches a random point of the other one.
+    const auto& touched = bodies[seed.below(bodies.size())];
+    model::RobotModel ball = arm4();
+    ball.capsules = {{"ball", 0, model::Vector3::Zero(), model::Vector3::Zero(), 1e-6}};
+    ball.self_pairs.clear();
+    const model::Robot probe = robot_at("probe", ball, touched.a + touched.radius * (random_rotation(seed) * model::Vector3::UnitX()));
+    SampledMotion still{model::Motion::rest(probe, model::Joints::Zero()), 0.01};
+    ASSERT_TRUE(core::enters_reach(still, other)) << "case " << i;
+  }
+}
+
+TEST(MapStore, KeepsMapsAsLongAsTheirMotionsLive) {
+  const auto cell = experiment_cell();
+  core::MapStore store{0, nullptr};
+  const auto a = sampled(cell->robots[0], cell->robots[0].start, pose_mm(350, 0, 200), 0.1);
+  const auto b = sampled(cell->robots[1], cell->robots[1].start, pose_mm(350, 0, 200), 0.1);
+  const auto* first = &store.get(a, b);
+  EXPECT_EQ(&store.get(a, b), first) << "built once";
+  EXPECT_EQ(store.size(), 1U);
+  (void)store.get(b, a);
+  EXPECT_EQ(store.size(), 2U) << "the other way round is another map";
+  for (int i = 0; i < 1000; ++i) {
+    const auto passing = std::make_shared<SampledMotion>(model::Motion::rest(cell->robots[1], cell->robots[1].start), 0.1);
+    (void)store.get(a, passing);
+  }
+  EXPECT_LT(store.size(), 300U) << "maps of motions that are gone are forgotten";
+}
+
+}  // namespace
+}  // namespace interlace::test
