@@ -119,7 +119,13 @@ std::optional<Answer> Client::wait_for(const model::CommandId& id, LocalTime dea
   return answer ? std::optional{*answer} : std::nullopt;
 }
 
+bool Client::planner_alive() const {
+  // The first state of a planner that lives can come before DDS tells that it does.
+  return states_ && (states_->counters().alive > 0 || (planner_ && now_ - planner_heard_ <= dds::kPlannerStatePeriod));
+}
+
 void Client::step(LocalTime now) {
+  now_ = now;
   if (states_) states_->take([&](model::PlannerState&& state) { take_state(std::move(state), now); });
   for (auto& [robot, link] : links_) {
     link->statuses.take([&](dds::StatusMessage&& m) { ledger_.on_status(m.planner_incarnation, m.status, now); });
@@ -138,6 +144,7 @@ void Client::take_state(model::PlannerState&& state, LocalTime now) {
   if (!ledger_.on_planner(state.incarnation, now)) return;
   replaced_ = replaced_ || (planner_ && planner_->incarnation != state.incarnation);
   planner_ = std::move(state);
+  planner_heard_ = now;
   if (connecting_) add_links();
 }
 

@@ -53,7 +53,7 @@ class Client {
   /// while planner_alive().
   [[nodiscard]] const std::optional<model::PlannerState>& planner() const { return planner_; }
   /// A planner was heard within its lease.
-  [[nodiscard]] bool planner_alive() const { return states_ && states_->counters().alive > 0; }
+  [[nodiscard]] bool planner_alive() const;
   /// True after another planner has taken over: everything that was not final is lost, see Ledger.
   [[nodiscard]] bool planner_replaced() const { return replaced_; }
 
@@ -110,7 +110,9 @@ class Client {
   std::map<model::RobotName, std::unique_ptr<dds::Reader<dds::PostureMessage>>> postures_;
   std::optional<model::PlannerState> planner_;
   bool replaced_ = false;
-  bool connecting_ = false;  // an observer asks for no links
+  LocalTime now_{};            // of the last step
+  LocalTime planner_heard_{};  // when the last state came
+  bool connecting_ = false;    // an observer asks for no links
   std::function<void(const Answer&)> on_answer_;
   std::function<void(const dds::PostureMessage&, LocalTime)> on_posture_;
   dds::Wait wait_;  // last: goes before the readers it waits for

@@ -159,15 +159,16 @@ MotionError joint_limit_error(const Robot& robot, std::size_t joint, double angl
 /// Walks a path from knot to knot, looking closer where a joint turns fast, until it is continuous or provably jumps.
 class PathWalk {
  public:
-  /// `posture(t)`: raw joints at `t`, empty when out of reach; `place(t)`: TCP in the world [m].
-  template <typename Posture, typename Place>
+  /// `posture(t)`: raw joints at `t`, empty when out of reach; `place(t)`: TCP in the world [m]; `share(t)`: how much of the path lies
+  /// behind, 0 … 1.
+  template <typename Posture, typename Place, typename Share>
   static Result<std::vector<Joints>, MotionError> along(const Robot& robot, const Joints& from, double duration, std::size_t steps,
-                                                        const Posture& posture, const Place& place) {
+                                                        const Posture& posture, const Place& place, const Share& share) {
     std::vector<Joints> knots{from};
     for (std::size_t i = 1; i <= steps; ++i) {
       const double t0 = duration * static_cast<double>(i - 1) / static_cast<double>(steps);
       const double t1 = duration * static_cast<double>(i) / static_cast<double>(steps);
-      auto next = step(robot, knots.back(), t0, t1, duration, 0, posture, place);
+      auto next = step(robot, knots.back(), t0, t1, duration, 0, posture, place, share);
       if (!next) return unexpected(next.error());
       knots.push_back(*next);
     }
@@ -175,10 +176,10 @@ class PathWalk {
   }
 
  private:
-  template <typename Posture, typename Place>
+  template <typename Posture, typename Place, typename Share>
   static Result<Joints, MotionError> step(const Robot& robot, const Joints& q0, double t0, double t1, double duration, int depth,
-                                          const Posture& posture, const Place& place) {
-    const double progress = t1 / duration;
+                                          const Posture& posture, const Place& place, const Share& share) {
+    const double progress = share(t1);
     const auto found = posture(t1);
     if (!found) {
       const Vector3 p = place(t1);
@@ -198,9 +199,9 @@ class PathWalk {
                                     degrees(largest), 100 * progress)});
       }
       const double middle = (t0 + t1) / 2;
-      auto half = step(robot, q0, t0, middle, duration, depth + 1, posture, place);
+      auto half = step(robot, q0, t0, middle, duration, depth + 1, posture, place, share);
       if (!half) return half;
-      return step(robot, *half, middle, t1, duration, depth + 1, posture, place);
+      return step(robot, *half, middle, t1, duration, depth + 1, posture, place, share);
     }
     if (const auto outside = joint_outside_limits(robot.model.joints, q1)) {
       return unexpected(joint_limit_error(robot, *outside, q1[*outside], progress, place(t1)));
@@ -254,8 +255,12 @@ Result<Motion, MotionError> plan_motion(const Robot& robot, const Joints& from, 
     m.duration_ = std::max(line.translation.duration(), line.rotation.duration());
     if (m.duration_ == 0) return Motion::rest(robot, from);
     const auto place = [&](double t) { return Vector3{robot.X_WB * m.tcp_in_base(line, t).translation()}; };
+    const auto share = [&](double t) {
+      const TimeLaw& law = length > kNoWay ? line.translation : line.rotation;
+      return law.at(t) / law.distance();
+    };
     const auto posture = [&](double t) { return model.kinematics.inverse(m.tcp_in_base(line, t) * model.X_FT.inverse(), line.branch); };
-    auto knots = PathWalk::along(robot, from, m.duration_, knots_for(length, line.angle), posture, place);
+    auto knots = PathWalk::along(robot, from, m.duration_, knots_for(length, line.angle), posture, place, share);
     if (!knots) return unexpected(knots.error());
     m.knots_ = std::move(*knots);
     m.line_ = line;

@@ -74,8 +74,9 @@ class PathCheck {
   [[nodiscard]] std::string name(std::size_t body) const { return motion_.robot().model.capsules[body].name; }
 
   [[nodiscard]] model::MotionError error(const SampledMotion::Piece& piece, model::Reason reason, std::string what) const {
-    const double duration = motion_.motion().duration();
-    const double progress = duration > 0 ? piece.centre / duration : 1;
+    const model::Motion& m = motion_.motion();
+    const double whole = m.length(m.duration());
+    const double progress = whole > 0 ? m.length(piece.centre) / whole : m.duration() > 0 ? piece.centre / m.duration() : 1;
     const Vector3 place = motion_.motion().tcp(piece.centre).translation();
     return {reason, progress, place,
             fmt::format("{} at {:.0f} % of the path, TCP at ({:.1f}, {:.1f}, {:.1f}) mm", what, 100 * progress, 1e3 * place.x(),

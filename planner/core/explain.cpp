@@ -72,6 +72,10 @@ std::string sentence(const model::RobotName& robot, const Assessment& a, double 
   }
   std::string text;
   for (const model::Conflict& c : a.conflicts) {
+    if (c.own_link.empty()) {  // a robot that could have been anywhere
+      text += fmt::format("{}{} was not heard from", text.empty() ? "" : "; ", c.blocker.str());
+      continue;
+    }
     text += fmt::format("{}{}'s {} would meet {}'s {} near ({:.0f}, {:.0f}, {:.0f}) mm", text.empty() ? "" : "; ", robot.str(), c.own_link,
                         c.blocker.str(), c.blocker_link, 1e3 * c.place.x(), 1e3 * c.place.y(), 1e3 * c.place.z());
     text += c.until == model::kForever ? fmt::format(" as long as {} stays there", c.blocker.str())

@@ -467,7 +467,7 @@ bool Planner::try_commit(RobotRecord& r, Instant now, Decisions& out) {
     head.status.state = CommandState::waiting;
     head.status.reason = Reason::not_ready;
     head.status.text = r.foreign ? fmt::format("{} moves although nobody told it to", r.robot->name.str())
-                       : r.heard ? fmt::format("the controller of {} is not ready", r.robot->name.str())
+                       : r.heard ? fmt::format("{} is not ready to take a start window", r.robot->name.str())
                                  : fmt::format("{} is not heard from", r.robot->name.str());
     head.status.conflicts.clear();
     publish(head.status, out);

@@ -26,8 +26,9 @@ SampledMotion::SampledMotion(model::Motion motion, double resolution)
     : motion_(std::move(motion)),
       id_(next_id()),
       depth_(depth_for(motion_.duration(), resolution)),
+      finest_(depth_ > 0 ? depth_ + kFiner : 0),
       shapes_(motion_.robot().model),
-      pieces_((std::size_t{2} << depth_) - 1) {}
+      pieces_((std::size_t{2} << finest_) - 1) {}
 
 const SampledMotion::Piece& SampledMotion::piece(int level, std::size_t index) {
   auto& slot = pieces_[(std::size_t{1} << level) - 1 + index];

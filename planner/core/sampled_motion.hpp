@@ -20,7 +20,10 @@ class SampledMotion {
     double largest_reach = 0;           ///< [m]
   };
 
-  /// Pieces of the deepest level are no longer than `resolution` [s], and short motions still have 16 of them.
+  /// Halvings beyond depth() that a map may ask for: next to a collision, where a smaller piece can still be proven free.
+  static constexpr int kFiner = 2;
+
+  /// Pieces of the level depth() are no longer than `resolution` [s], and short motions still have 16 of them.
   SampledMotion(model::Motion motion, double resolution);
 
   SampledMotion(const SampledMotion&) = delete;
@@ -30,6 +33,7 @@ class SampledMotion {
   [[nodiscard]] const model::Robot& robot() const { return motion_.robot(); }
   [[nodiscard]] std::uint64_t id() const { return id_; }  ///< unique in this process: the key of kept maps
   [[nodiscard]] int depth() const { return depth_; }      ///< halvings down to the resolution; 0 for standing
+  [[nodiscard]] int finest() const { return finest_; }    ///< deepest level there is
 
   /// Piece `index` of the 2^level pieces of `level`.
   [[nodiscard]] const Piece& piece(int level, std::size_t index);
@@ -42,6 +46,7 @@ class SampledMotion {
   model::Motion motion_;
   std::uint64_t id_;
   int depth_ = 0;
+  int finest_ = 0;
   BodyShapes shapes_;
   std::vector<std::unique_ptr<Piece>> pieces_;  // binary tree in heap order
   std::unique_ptr<SampledMotion> at_start_, at_end_;

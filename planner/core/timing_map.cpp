@@ -31,6 +31,7 @@ class Subdivision {
     const auto& a = own_->piece(own_level, own_index);
     const auto& b = other_->piece(other_level, other_index);
     bool undecided = false;
+    bool collides = false;  // for certain, at the centre
     double least = kNever;  // of clearance minus bound over the pairs that are not proven free
     BlockedCell found;
     for (std::size_t i = 0; i < a.bodies.size(); ++i) {
@@ -42,6 +43,7 @@ class Subdivision {
         if (d > bound) continue;
         const bool throughout = d < margin_ - (a.reach[i] + b.reach[j]);
         undecided = true;
+        collides = collides || d <= margin_;
         if (d - bound < least || throughout) {
           least = d - bound;
           found.own_body = static_cast<std::uint16_t>(i);
@@ -53,8 +55,9 @@ class Subdivision {
       }
     }
     if (!undecided) return;
-    const bool own_splits = own_level < own_->depth();
-    const bool other_splits = other_level < other_->depth();
+    // A cell with a collision inside stays blocked at the resolution; one without may still turn out free when looked at more closely.
+    const bool own_splits = own_level < (collides ? own_->depth() : own_->finest());
+    const bool other_splits = other_level < (collides ? other_->depth() : other_->finest());
     if (!own_splits && !other_splits) return block(a, b, found);
     if (own_splits && (!other_splits || a.largest_reach >= b.largest_reach)) {
       cell(own_level + 1, 2 * own_index, other_level, other_index);
