@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -16,7 +17,7 @@ DurationStatistics statistics_of(std::vector<double> seconds) {
   if (seconds.empty()) return s;
   std::sort(seconds.begin(), seconds.end());
   const auto quantile = [&](double q) {
-    return 1e3 * seconds[static_cast<std::size_t>(q * static_cast<double>(seconds.size() - 1) + 0.5)];
+    return 1e3 * seconds[static_cast<std::size_t>(std::lround(q * static_cast<double>(seconds.size() - 1)))];
   };
   s.mean = 1e3 * std::accumulate(seconds.begin(), seconds.end(), 0.0) / static_cast<double>(seconds.size());
   s.p50 = quantile(0.5);

@@ -20,10 +20,10 @@ class Mapping;
 /// value or adds a finding and yields nothing, so that one pass tells everything wrong with a file.
 class Field {
  public:
-  Field(YAML::Node node, std::string key, Findings& findings) : Field(node, std::move(key), findings, node.Mark()) {}
+  Field(const YAML::Node& node, std::string key, Findings& findings) : Field(node, std::move(key), findings, node.Mark()) {}
   /// `place` is where the key itself stands.
-  Field(YAML::Node node, std::string key, Findings& findings, YAML::Mark place)
-      : node_(std::move(node)), key_(std::move(key)), findings_(&findings), place_(place) {}
+  Field(const YAML::Node& node, std::string key, Findings& findings, YAML::Mark place)
+      : node_(node), key_(std::move(key)), findings_(&findings), place_(place) {}
 
   [[nodiscard]] const std::string& key() const { return key_; }
 

@@ -164,6 +164,7 @@ std::optional<SelfPairs> read_self_pairs(const Field& field, const std::vector<L
   const auto items = field.items("pairs of capsule names");
   if (!items) return std::nullopt;
   std::vector<std::string> names;
+  names.reserve(capsules.size());
   for (const auto& capsule : capsules) names.push_back(capsule.name);
   SelfPairs pairs;
   for (const auto& item : *items) {

@@ -91,7 +91,7 @@ std::optional<Joints> read_posture(const Field& field, const RobotModel& model, 
       field.refuse("expected either joints or a pose, not both");
       return std::nullopt;
     }
-    const auto q = joints->joints(angle(units));
+    auto q = joints->joints(angle(units));
     if (!q || !model::joint_outside_limits(model.joints, *q)) return q;
     joints->refuse(outside_limits(model, *q, units));
     return std::nullopt;
@@ -105,7 +105,7 @@ std::optional<Joints> read_posture(const Field& field, const RobotModel& model, 
   const auto X_WT = pose_in(*mapping, units);
   if (!X_WT) return std::nullopt;
   const Pose X_BT = X_WB.inverse() * *X_WT;
-  const auto q = model::preferred_posture(model, X_BT, [&](const Branch& branch) { return choice.admits(branch); });
+  auto q = model::preferred_posture(model, X_BT, [&](const Branch& branch) { return choice.admits(branch); });
   if (!q) field.refuse(why_unreachable(model, X_BT, choice, units));
   return q;
 }

@@ -97,7 +97,8 @@ TEST(RoundTrip, Dispatch) {
   ASSERT_TRUE(executed) << pair.writer.last_refusal();
   EXPECT_EQ(executed->planner_incarnation, 42u);
   EXPECT_EQ(executed->fingerprint, 0xFEEDFACECAFEBEEF);
-  const auto& sent = std::get<model::Dispatch>(execute().order);
+  const auto message = execute();
+  const auto& sent = std::get<model::Dispatch>(message.order);
   const auto& got = std::get<model::Dispatch>(executed->order);
   EXPECT_EQ(got.id, sent.id);
   EXPECT_EQ(got.robot, sent.robot);
