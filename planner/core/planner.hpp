@@ -63,7 +63,10 @@ class Planner {
   [[nodiscard]] MapStore& maps() { return maps_; }
 
  private:
-  // Commands
+  /// A dispatch or motion that got no answer is given up this long after it must be over: a proxy never starts after its window.
+  static constexpr Duration kGrace = std::chrono::milliseconds{500};
+
+  // Commands: planner_commands.cpp
   void reject(model::CommandStatus status, model::Reason reason, std::string text, Decisions& out);
   [[nodiscard]] model::Result<SampledMotionPtr, model::MotionError> admit(model::RobotIndex robot, const model::Joints& from,
                                                                           const model::MotionRequest& request) const;
@@ -71,7 +74,7 @@ class Planner {
   bool cancel(RobotRecord& r, const model::CommandId& id, Decisions& out);
   void publish(const model::CommandStatus& status, Decisions& out);
 
-  // Robots
+  // Robots: planner_robots.cpp
   void stand_at(RobotRecord& r, const model::Joints& q, Instant now, Decisions& out);
   void put_back(RobotRecord& r, model::Reason why, const std::string& text, Decisions& out);
   void begin(RobotRecord& r, const StartInterval& start, Decisions& out);
@@ -79,7 +82,7 @@ class Planner {
   void revoke_dependents(model::RobotIndex robot, Decisions& out);
   [[nodiscard]] model::RobotIndex index_of(const RobotRecord& r) const { return static_cast<model::RobotIndex>(&r - robots_.data()); }
 
-  // Scheduling
+  // Scheduling: planner.cpp
   void notice_silence(Instant now, Decisions& out);
   void schedule(Instant now, Decisions& out);
   bool try_commit(RobotRecord& r, Instant now, Decisions& out);
