@@ -50,7 +50,7 @@ void Ledger::cancel(const model::RobotName& robot, const model::CommandId& id) {
       return;
     }
   }
-  orders_.emplace(id, Order{request, std::nullopt});
+  orders_.emplace(id, Order{request, ++last_turn_, std::nullopt});
 }
 
 bool Ledger::stop(const model::StopRequested& request) {
@@ -60,7 +60,7 @@ bool Ledger::stop(const model::StopRequested& request) {
     close(model::CommandId{line->second.unsent.back()}, CommandState::cancelled, Reason::on_request, "given up before it was sent");
   }
   enter(request, request.id, request.robot);
-  orders_.emplace(request.id, Order{request, std::nullopt});
+  orders_.emplace(request.id, Order{request, ++last_turn_, std::nullopt});
   return true;
 }
 
@@ -180,12 +180,15 @@ std::vector<Request> Ledger::due(LocalTime now) {
   for (auto& [robot, line] : lines_) give_up_unanswered(line, now);
   const bool lives = planner_lives(now);
   if (!lives) return out;
-  for (auto& [id, order] : orders_) {
-    if (!order.sent) {
-      order.sent = Sending{now, now};
-      out.push_back(order.request);
-    } else if (resend(*order.sent, now, lives)) {
-      out.push_back(order.request);
+  std::vector<Order*> orders;
+  for (auto& [id, order] : orders_) orders.push_back(&order);
+  std::sort(orders.begin(), orders.end(), [](const Order* a, const Order* b) { return a->turn < b->turn; });
+  for (Order* order : orders) {
+    if (!order->sent) {
+      order->sent = Sending{now, now};
+      out.push_back(order->request);
+    } else if (resend(*order->sent, now, lives)) {
+      out.push_back(order->request);
     }
   }
   for (auto& [robot, line] : lines_) {

@@ -97,6 +97,7 @@ class Ledger {
   /// A stop or cancellation on its way; a cancellation shares the id of its command.
   struct Order {
     Request request;
+    std::uint64_t turn = 0;  // orders go out in the order they were given
     std::optional<Sending> sent;
   };
 
@@ -116,6 +117,7 @@ class Ledger {
   std::unordered_map<model::CommandId, Entry> entries_;
   std::map<model::RobotName, Line> lines_;
   std::map<model::CommandId, Order> orders_;
+  std::uint64_t last_turn_ = 0;
   LocalTime looked_{};  // when due() last ran
   std::vector<Answer> news_;
 };

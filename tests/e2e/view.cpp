@@ -1,6 +1,7 @@
 #include "tests/e2e/view.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace interlace::test {
 
@@ -57,8 +58,11 @@ bool View::reached(const std::string& id, model::CommandState state) const {
 }
 
 std::size_t View::executions(model::ExecutionState state, const std::string& id) const {
-  return static_cast<std::size_t>(std::count_if(executions_.begin(), executions_.end(),
-                                                [&](const auto& e) { return e.state == state && (id.empty() || e.id.str() == id); }));
+  std::set<std::pair<model::CommandId, model::Instant>> events;  // a proxy may say it again, then with the same time
+  for (const auto& e : executions_) {
+    if (e.state == state && (id.empty() || e.id.str() == id)) events.emplace(e.id, e.at);
+  }
+  return events.size();
 }
 
 const dds::PostureMessage* View::posture(const std::string& robot) const {

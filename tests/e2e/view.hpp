@@ -32,7 +32,7 @@ class View {
   /// All statuses heard, in order.
   [[nodiscard]] const std::vector<model::CommandStatus>& statuses() const { return statuses_; }
 
-  /// How often proxies reported `state`; of command `id` alone, when given.
+  /// How often robots came to `state`, answers given again not counted; of command `id` alone, when given.
   [[nodiscard]] std::size_t executions(model::ExecutionState state, const std::string& id = {}) const;
 
   /// Newest posture, null when the robot was not heard.

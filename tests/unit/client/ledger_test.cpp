@@ -161,6 +161,17 @@ TEST_F(LedgerTest, AStatusAloneShowsThatThePlannerIsAnother) {
   EXPECT_FALSE(ledger.on_planner(kPlanner, kStart)) << "replaced planners do not come back";
 }
 
+TEST_F(LedgerTest, CancellationsGoOutInTheOrderTheyWereAskedFor) {
+  LocalTime now = kStart;
+  for (const char* id : {"1", "2", "3"}) {
+    ledger.submit(command(id));
+    ASSERT_EQ(due(now), Ids{id});
+    told(id, CommandState::queued, now);
+  }
+  for (const char* id : {"3", "1", "2"}) ledger.cancel(RobotName{"r1"}, CommandId{id});
+  EXPECT_EQ(due(now), (Ids{"cancel 3", "cancel 1", "cancel 2"}));
+}
+
 TEST_F(LedgerTest, OnlyNewsAreNews) {
   ledger.submit(command("a"));
   (void)due(kStart);
