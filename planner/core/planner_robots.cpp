@@ -19,10 +19,19 @@ namespace {
 /// Joints nearer than this to where a robot is thought to stand are the same place [rad].
 constexpr double kSamePlace = 1e-4;
 
+/// A robot is seen moving from this long after the start of its motion until this long before its end.
+constexpr Duration kUnderWay = std::chrono::milliseconds{200};
+
 /// Latest time a started motion can end.
 Instant latest_end(const Commitment& c) {
   const model::Motion& motion = c.command.motion->motion();
   return c.start_until + model::from_seconds(motion.duration() * (1 + motion.robot().controller.speed_error));
+}
+
+/// Earliest time a started motion can end.
+Instant earliest_end(const Commitment& c) {
+  const model::Motion& motion = c.command.motion->motion();
+  return c.start_from + model::from_seconds(motion.duration() * (1 - motion.robot().controller.speed_error));
 }
 
 void append(Decisions more, Decisions& out) {
@@ -132,13 +141,17 @@ void Planner::begin(RobotRecord& r, const StartInterval& start, Decisions& out) 
   publish(status, out);
 }
 
-/// What the proxy must have reported and nobody heard: the robot stands, long after it must have started or arrived.
+/// What the proxy must have reported and nobody heard: the robot stands, long after it must have started or arrived, or in the middle of
+/// its motion, as when its proxy or controller was restarted.
 std::optional<model::ExecutionReported> Planner::unreported_outcome(const RobotRecord& r, Instant now) {
   if (!r.committed || r.committed->phase == Commitment::Phase::held || r.lost() || !r.stood) return std::nullopt;
   const Commitment& c = *r.committed;
   const bool started = c.phase == Commitment::Phase::started;
   const Instant over = started ? latest_end(c) : c.start_until;
-  if (now <= over + kGrace || r.stood->at <= over) return std::nullopt;
+  const bool silent = now > over + kGrace && r.stood->at > over;
+  const bool stopped_short =
+      started && r.stood->at >= r.known_at && r.stood->at > c.start_until + kUnderWay && r.stood->at < earliest_end(c) - kUnderWay;
+  if (!silent && !stopped_short) return std::nullopt;
   const auto stands_at = [&](const model::Joints& q) { return (r.stood->joints - q).cwiseAbs().maxCoeff() <= kSamePlace; };
   model::ExecutionReported report;
   report.id = c.command.status.id;

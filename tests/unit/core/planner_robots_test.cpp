@@ -230,6 +230,22 @@ TEST(PlannerRobots, AMotionThatEndedElsewhereHasFailed) {
   EXPECT_FALSE(desk.status_of("a").text.empty());
 }
 
+// A proxy or a controller that was restarted knows nothing of the motion: the robot is not where the planner thinks it passes.
+TEST(PlannerRobots, ARobotThatStandsInTheMiddleOfItsMotionHasFailed) {
+  Desk desk;
+  desk.all_stand();
+  desk.submit("a", "r1", r1_aside());
+  const auto d = desk.dispatch_of("a");
+  desk.begin(d);
+  desk.pass(500ms);
+  desk.posture("r1", desk.robot("r1").start, true, "a");
+  EXPECT_EQ(desk.status_of("a").state, CommandState::started);
+  desk.pass(100ms);
+  desk.stands("r1", desk.robot("r1").start);
+  EXPECT_EQ(desk.status_of("a").state, CommandState::failed);
+  EXPECT_EQ(desk.planner.state(desk.now).robots[0].mode, model::RobotMode::standby);
+}
+
 TEST(PlannerRobots, AFailedMotionIsFinalAndItsRobotStandsWhereItSays) {
   Desk desk;
   desk.all_stand();
