@@ -35,6 +35,22 @@ const char* to_string(Reason r) {
     case Reason::controller_fault: return "controller_fault";
     case Reason::on_request: return "on_request";
     case Reason::unknown_id: return "unknown_id";
+    case Reason::escape: return "escape";
+    case Reason::deadlock: return "deadlock";
+  }
+  return "?";
+}
+
+const char* to_string(EscapeWay w) {
+  switch (w) {
+    case EscapeWay::plus_x: return "+x";
+    case EscapeWay::minus_x: return "-x";
+    case EscapeWay::plus_y: return "+y";
+    case EscapeWay::minus_y: return "-y";
+    case EscapeWay::plus_z: return "+z";
+    case EscapeWay::minus_z: return "-z";
+    case EscapeWay::retreat: return "retreat";
+    case EscapeWay::home: return "home";
   }
   return "?";
 }

@@ -78,7 +78,9 @@ enum class Reason : std::uint8_t {
   refused_by_proxy,  ///< start was missed or refused; planned again
   controller_fault,
   on_request,  ///< cancelled or stopped by a client
-  unknown_id   ///< no such command
+  unknown_id,  ///< no such command
+  escape,      ///< out of the way of the command it serves; or of that command: others are sent out of its way first
+  deadlock     ///< nobody in the way will move by itself and no escape was found: a person is asked for help
 };
 [[nodiscard]] const char* to_string(Reason r);
 
@@ -93,11 +95,23 @@ struct Conflict {
   Vector3 place = Vector3::Zero();  ///< world point between the two bodies there [m]
 };
 
+/// Ways out for a robot that is in the way: along an axis of the world, back where it came from, to its home pose.
+enum class EscapeWay : std::uint8_t { plus_x, minus_x, plus_y, minus_y, plus_z, minus_z, retreat, home };
+[[nodiscard]] const char* to_string(EscapeWay w);
+
+/// A way out that was looked at and does not help.
+struct EscapeRefusal {
+  RobotName robot;  ///< that would have had to go
+  EscapeWay way = EscapeWay::plus_x;
+  std::string text;  ///< why not
+};
+
 /// Planner → client: the state of one command and why.
 struct CommandStatus {
   CommandId id;
   RobotName robot;
   bool escape = false;  ///< made by the planner, not by a client
+  CommandId serves;     ///< of an escape: the command it makes room for, or brings its robot back for
   CommandState state = CommandState::queued;
   Reason reason = Reason::none;
   std::string text;  ///< one sentence for people; empty when there is nothing to explain
@@ -106,6 +120,7 @@ struct CommandStatus {
   std::optional<Instant> end;    ///< predicted, measured once completed
   double delay = 0;              ///< start minus the time the command could have started [s]
   std::vector<Conflict> conflicts;
+  std::vector<EscapeRefusal> refusals;  ///< with reason `deadlock`: what was tried in vain
 };
 
 /// Planner → proxy: start `motion` within [earliest, latest] or not at all.
@@ -165,6 +180,7 @@ struct RobotStatus {
   Reason reason = Reason::none;
   std::string text;
   std::vector<Conflict> conflicts;
+  std::vector<EscapeRefusal> refusals;
 };
 
 /// Planner → everyone: the whole state, so that a late or deaf listener recovers.

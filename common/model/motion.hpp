@@ -34,6 +34,7 @@ class Motion {
   [[nodiscard]] double duration() const { return duration_; }  ///< [s]
   [[nodiscard]] const Joints& from() const { return knots_.front(); }
   [[nodiscard]] const Joints& to() const { return knots_.back(); }
+  [[nodiscard]] bool is_linear() const { return line_.has_value(); }  ///< a straight line of the TCP; false also for a rest
 
   /// Joints [rad] at local time `t` [s], continuous; the end postures outside [0, duration].
   [[nodiscard]] Joints joints(double t) const;

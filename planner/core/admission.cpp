@@ -99,4 +99,13 @@ std::optional<model::MotionError> path_collision(SampledMotion& motion, const mo
   return std::nullopt;
 }
 
+model::Result<SampledMotionPtr, model::MotionError> admit(const model::Cell& cell, model::RobotIndex robot, const model::Joints& from,
+                                                          const model::MotionRequest& request) {
+  auto motion = model::plan_motion(cell.robots[robot], from, request);
+  if (!motion) return model::unexpected(motion.error());
+  auto sampled = std::make_shared<SampledMotion>(std::move(*motion), cell.planning.resolution);
+  if (auto collision = path_collision(*sampled, cell, robot, cell.planning.margin)) return model::unexpected(*collision);
+  return sampled;
+}
+
 }  // namespace interlace::core

@@ -13,4 +13,8 @@ namespace interlace::core {
 [[nodiscard]] std::optional<model::MotionError> path_collision(SampledMotion& motion, const model::Cell& cell, model::RobotIndex robot,
                                                                double margin);
 
+/// The motion of `request` for `robot` standing at `from` [rad], or why it can never be one, wherever the other robots are.
+[[nodiscard]] model::Result<SampledMotionPtr, model::MotionError> admit(const model::Cell& cell, model::RobotIndex robot,
+                                                                        const model::Joints& from, const model::MotionRequest& request);
+
 }  // namespace interlace::core

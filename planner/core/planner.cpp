@@ -38,25 +38,71 @@ Decisions Planner::advance(Instant now) {
 
 void Planner::schedule(Instant now, Decisions& out) {
   send_due(now, out);
-  for (bool progress = true; progress;) {
-    progress = false;
-    std::vector<RobotRecord*> candidates;
-    for (RobotRecord& r : robots_) {
-      if (!r.committed && !r.queue.empty()) candidates.push_back(&r);
-    }
-    std::stable_sort(candidates.begin(), candidates.end(), [](const auto* a, const auto* b) { return a->ready_since < b->ready_since; });
-    for (RobotRecord* r : candidates) {
-      if (try_commit(*r, now, out)) {
-        progress = true;  // a robot that leaves may open the way for one that could not start
-        break;
-      }
-    }
+  if (strategy_->service().in_turn) {
+    serve_in_turn(now, out);
+  } else {
+    serve_whoever_can(now, out);
+  }
+  for (RobotRecord& r : robots_) {
+    if (const QueuedCommand* next = r.next(); next && !r.committed && next->status.state == CommandState::waiting)
+      publish(next->status, out);
   }
   send_due(now, out);
 }
 
+/// Robots that stand and have a command, longest ready first.
+std::vector<RobotRecord*> Planner::candidates() {
+  std::vector<RobotRecord*> result;
+  for (RobotRecord& r : robots_) {
+    if (!r.committed && r.next()) result.push_back(&r);
+  }
+  std::stable_sort(result.begin(), result.end(), [](const auto* a, const auto* b) { return a->ready_since < b->ready_since; });
+  return result;
+}
+
+void Planner::serve_whoever_can(Instant now, Decisions& out) {
+  const auto one_starts = [&] {
+    for (RobotRecord* r : candidates()) {
+      if (try_commit(*r, now, out)) return true;
+    }
+    return false;
+  };
+  // A robot that leaves may open the way for one that could not start.
+  while (one_starts() || make_room(now, out)) {
+  }
+}
+
+/// The dissertation's order (6.2): one commanded robot at a time, looked for from robot 1 on. While one is deadlocked, and until the
+/// escapes and the motion they serve are over, nobody else gets a command.
+void Planner::serve_in_turn(Instant now, Decisions& out) {
+  while (!escaping_ || all_stand()) {
+    escaping_ = false;
+    if (!deadlocked_) {
+      const auto commanded = std::find_if(robots_.begin(), robots_.end(), [](const RobotRecord& r) { return !r.committed && r.next(); });
+      if (commanded == robots_.end()) return;
+      if (try_commit(*commanded, now, out)) continue;
+      deadlocked_ = index_of(*commanded);
+    }
+    RobotRecord& r = robots_[*deadlocked_];
+    if (r.next() && !r.committed && !try_commit_when_all_stand(r, now, out)) return;
+    deadlocked_.reset();
+  }
+}
+
+bool Planner::try_commit_when_all_stand(RobotRecord& r, Instant now, Decisions& out) {
+  if (!all_stand()) return false;
+  if (try_commit(r, now, out)) return true;
+  escaping_ = make_room_for(r, now, out);
+  return escaping_;
+}
+
+Candidate Planner::candidate_of(const RobotRecord& r, const SampledMotionPtr& motion) const {
+  return {index_of(r), motion, options_.start_tolerance + model::from_seconds(r.robot->controller.latest_start())};
+}
+
 bool Planner::try_commit(RobotRecord& r, Instant now, Decisions& out) {
-  QueuedCommand& head = r.queue.front();
+  QueuedCommand& head = *r.next();
+  r.blockers.clear();
   if (r.lost() || !r.ready) {
     head.status.state = CommandState::waiting;
     head.status.reason = Reason::not_ready;
@@ -64,47 +110,61 @@ bool Planner::try_commit(RobotRecord& r, Instant now, Decisions& out) {
                        : r.heard ? fmt::format("{} is not ready to take a start window", r.robot->name.str())
                                  : fmt::format("{} is not heard from", r.robot->name.str());
     head.status.conflicts.clear();
-    publish(head.status, out);
+    head.status.refusals.clear();
     return false;
   }
-  const Candidate candidate{index_of(r), head.motion, options_.start_tolerance + model::from_seconds(r.robot->controller.latest_start())};
+  const Candidate candidate = candidate_of(r, head.motion);
   std::vector<Neighbour> neighbours;
   for (RobotRecord& other : robots_) {
     if (&other != &r) neighbours.push_back(other.as_neighbour(index_of(other), now));
   }
-  const Timing timing{now + options_.lead, options_.confirm};
-  Assessment a = strategy_->assess(candidate, neighbours, timing, maps_);
-  const double delay = a.start ? model::to_seconds(*a.start - (r.ready_since + options_.lead)) : 0;
-  if (a.start && a.conflicts.empty() && delay > 0 && !head.status.conflicts.empty()) {
-    // It goes at once now, but it stood waiting before: what kept it is the evidence of its delay.
-    a.conflicts = head.status.conflicts;
-    for (model::Conflict& c : a.conflicts) c.until = std::min(c.until, *a.start);
-    a.reason = Reason::delayed;
+  Assessment a = strategy_->assess(candidate, neighbours, timing_at(now), maps_);
+  if (a.start) {
+    commit_next(r, candidate, std::move(a), r.ready_since + options_.lead, out);
+    return true;
   }
+  r.blockers = a.blockers;
+  if (head.status.reason == Reason::deadlock && r.room_sought == revision_) return false;  // what a person was told still holds
+  head.status.state = CommandState::waiting;
   head.status.reason = a.reason;
-  head.status.conflicts = a.conflicts;
-  if (!a.start) {
-    head.status.state = CommandState::waiting;
-    head.status.text = sentence(r.robot->name, a, 0);
-    publish(head.status, out);
-    return false;
+  head.status.text = sentence(r.robot->name, a, 0);
+  head.status.conflicts = std::move(a.conflicts);
+  head.status.refusals.clear();
+  return false;
+}
+
+/// Makes the start that `a` chose for the command whose turn it is a fact. `could_start`: what its delay is counted from.
+void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment a, Instant could_start, Decisions& out) {
+  auto& from = r.escapes.empty() ? r.queue : r.escapes;
+  QueuedCommand command = std::move(from.front());
+  from.pop_front();
+  CommandStatus& status = command.status;
+  const double delay = model::to_seconds(*a.start - could_start);
+  if (a.conflicts.empty() && delay > 0 && !status.conflicts.empty()) {
+    // It goes at once now, but it stood waiting before: what kept it is the evidence of its delay.
+    a.conflicts = status.conflicts;
+    for (model::Conflict& c : a.conflicts) c.until = std::min(c.until, *a.start);
+    if (a.reason == Reason::none) a.reason = Reason::delayed;
   }
   Commitment c;
-  c.command = std::move(head);
-  r.queue.pop_front();
   c.serial = ++r.last_serial;
   c.start_from = *a.start;
   c.start_until = *a.start + candidate.tolerance;
   for (const model::RobotIndex other : a.departures) c.departures.emplace_back(other, robots_[other].committed->serial);
-  CommandStatus& status = c.command.status;
   status.state = CommandState::scheduled;
+  status.reason = a.reason;
   status.start = c.start_from;
-  status.end = c.start_from + model::from_seconds(c.command.motion->motion().duration());
+  status.end = c.start_from + model::from_seconds(command.motion->motion().duration());
   status.delay = delay;
-  status.text = sentence(r.robot->name, a, status.delay);
+  status.text = sentence(r.robot->name, a, delay);
+  status.conflicts = std::move(a.conflicts);
+  status.refusals.clear();
   publish(status, out);
+  if (command.origin == QueuedCommand::Origin::client) r.way_back.clear();  // where it goes now is where its queue is judged from
+  c.command = std::move(command);
   r.committed = std::move(c);
-  return true;
+  r.blockers.clear();
+  ++revision_;
 }
 
 Planner::Departures Planner::departures_of(const Commitment& c) const {
@@ -182,13 +242,15 @@ model::PlannerState Planner::state(Instant now) const {
   for (const RobotRecord& r : robots_) {
     model::RobotStatus status;
     status.name = r.robot->name;
-    status.queued = static_cast<std::uint32_t>(r.queue.size());
-    const CommandStatus* current = r.committed ? &r.committed->command.status : r.queue.empty() ? nullptr : &r.queue.front().status;
+    status.queued = static_cast<std::uint32_t>(r.queue.size() + r.escapes.size());
+    const QueuedCommand* next = r.next();
+    const CommandStatus* current = r.committed ? &r.committed->command.status : next ? &next->status : nullptr;
     if (current) {
       status.current = current->id;
       status.reason = current->reason;
       status.text = current->text;
       status.conflicts = current->conflicts;
+      status.refusals = current->refusals;
     }
     status.mode = r.lost()                                                          ? RobotMode::unknown
                   : r.committed && r.committed->phase == Commitment::Phase::started ? RobotMode::moving

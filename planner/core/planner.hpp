@@ -10,19 +10,23 @@
 
 #include "common/model/cell.hpp"
 #include "common/model/messages.hpp"
+#include "planner/core/escape.hpp"
 #include "planner/core/robot_record.hpp"
+#include "planner/core/wait_graph.hpp"
 
 namespace interlace::core {
 
 /// What a planner is told once. Defaults are those of virtual time, where messages take none.
 struct PlannerOptions {
   std::string strategy = "event";
-  Duration lead{};                                           ///< shortest time from a decision to a start
-  Duration start_tolerance{};                                ///< window given to a proxy beyond its controller's own latency and jitter
-  Duration confirm{};                                        ///< from a start until the planner has surely heard of it
-  std::optional<Duration> posture_timeout;                   ///< a robot silent for longer is lost; empty: never
+  bool escapes = true;                      ///< robots in the way may be sent out of it; else their neighbours wait for people
+  Duration lead{};                          ///< shortest time from a decision to a start
+  Duration start_tolerance{};               ///< window given to a proxy beyond its controller's own latency and jitter
+  Duration confirm{};                       ///< from a start until the planner has surely heard of it
+  std::optional<Duration> posture_timeout;  ///< a robot silent for longer is lost; empty: never
   Duration answer_timeout = std::chrono::milliseconds{100};  ///< a dispatch unanswered for longer is sent again
   std::size_t queue_limit = 1000;                            ///< waiting commands per robot
+  std::string escape_prefix = "escape-";                     ///< of the ids of escapes; must differ between planners that proxies remember
   std::size_t remembered = 10000;                            ///< finished commands that are still answered by id
   std::function<double()> stopwatch;                         ///< elapsed [s], for statistics only
 };
@@ -68,14 +72,14 @@ class Planner {
 
   // Commands: planner_commands.cpp
   void reject(model::CommandStatus status, model::Reason reason, std::string text, Decisions& out);
-  [[nodiscard]] model::Result<SampledMotionPtr, model::MotionError> admit(model::RobotIndex robot, const model::Joints& from,
-                                                                          const model::MotionRequest& request) const;
+  [[nodiscard]] model::Result<SampledMotionPtr, model::MotionError> admit_next(RobotRecord& r, const QueuedCommand& command);
   void rejudge_queue(RobotRecord& r, Decisions& out);
+  void drop_escapes(RobotRecord& r, Decisions& out);
   bool cancel(RobotRecord& r, const model::CommandId& id, Decisions& out);
   void publish(const model::CommandStatus& status, Decisions& out);
 
   // Robots: planner_robots.cpp
-  void stand_at(RobotRecord& r, const model::Joints& q, Instant now, Decisions& out);
+  void stand_at(RobotRecord& r, const model::Joints& q, Instant now, Decisions& out, bool escaped = false);
   void put_back(RobotRecord& r, model::Reason why, const std::string& text, Decisions& out);
   void begin(RobotRecord& r, const StartInterval& start, Decisions& out);
   [[nodiscard]] static std::optional<model::ExecutionReported> unreported_outcome(const RobotRecord& r, Instant now);
@@ -85,11 +89,27 @@ class Planner {
   // Scheduling: planner.cpp
   void notice_silence(Instant now, Decisions& out);
   void schedule(Instant now, Decisions& out);
+  void serve_whoever_can(Instant now, Decisions& out);
+  void serve_in_turn(Instant now, Decisions& out);
+  bool try_commit_when_all_stand(RobotRecord& r, Instant now, Decisions& out);
+  [[nodiscard]] std::vector<RobotRecord*> candidates();
+  [[nodiscard]] Candidate candidate_of(const RobotRecord& r, const SampledMotionPtr& motion) const;
+  [[nodiscard]] Timing timing_at(Instant now) const { return {now + options_.lead, options_.confirm}; }
   bool try_commit(RobotRecord& r, Instant now, Decisions& out);
+  void commit_next(RobotRecord& r, const Candidate& candidate, Assessment a, Instant could_start, Decisions& out);
   void send_due(Instant now, Decisions& out);
   enum class Departures { open, met, broken };
   [[nodiscard]] Departures departures_of(const Commitment& c) const;
   void dispatch(RobotRecord& r, Instant now, Decisions& out);
+
+  // Deadlocks: planner_escapes.cpp
+  [[nodiscard]] WaitGraph wait_graph() const;
+  bool make_room(Instant now, Decisions& out);
+  bool make_room_for(RobotRecord& r, Instant now, Decisions& out);
+  [[nodiscard]] EscapeView escape_view(const RobotRecord& r, Instant now) const;
+  void warn(RobotRecord& r, EscapeRefusals refusals);
+  [[nodiscard]] bool all_stand() const;
+  [[nodiscard]] bool may_escape() const { return options_.escapes && strategy_->service().escapes; }
 
   std::shared_ptr<const model::Cell> cell_;
   PlannerOptions options_;
@@ -99,6 +119,10 @@ class Planner {
   std::unordered_map<model::CommandId, model::CommandStatus> known_;  // newest status of every command still answered by id
   std::deque<model::CommandId> finished_;                             // final ones, oldest first
   std::uint64_t accepted_ = 0, rejected_ = 0, completed_ = 0;
+  std::uint64_t revision_ = 1;  // of all that a search for room depends on
+  std::uint64_t last_escape_ = 0;
+  std::optional<model::RobotIndex> deadlocked_;  // served in turn: for whom all others are held up
+  bool escaping_ = false;                        // served in turn: escapes and what they serve are under way
 };
 
 }  // namespace interlace::core

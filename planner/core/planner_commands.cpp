@@ -44,15 +44,6 @@ void Planner::reject(CommandStatus status, Reason reason, std::string text, Deci
   publish(status, out);
 }
 
-model::Result<SampledMotionPtr, model::MotionError> Planner::admit(model::RobotIndex robot, const model::Joints& from,
-                                                                   const model::MotionRequest& request) const {
-  auto motion = model::plan_motion(cell_->robots[robot], from, request);
-  if (!motion) return model::unexpected(motion.error());
-  auto sampled = std::make_shared<SampledMotion>(std::move(*motion), cell_->planning.resolution);
-  if (auto collision = path_collision(*sampled, *cell_, robot, cell_->planning.margin)) return model::unexpected(*collision);
-  return sampled;
-}
-
 Decisions Planner::on(const model::CommandSubmitted& event, Instant now) {
   Decisions out;
   if (const auto known = known_.find(event.id); known != known_.end()) {
@@ -74,25 +65,75 @@ Decisions Planner::on(const model::CommandSubmitted& event, Instant now) {
            out);
     return out;
   }
-  auto motion = admit(*index, r.joints_at_end(), event.motion);
+  QueuedCommand command;
+  command.status = status;
+  command.request = event.motion;
+  command.priority = event.priority;
+  auto motion = r.queue.empty() ? admit_next(r, command) : admit(*cell_, *index, r.joints_at_end(), event.motion);
   if (!motion) {
     reject(status, motion.error().reason, motion.error().text, out);
     return out;
   }
   ++accepted_;
-  if (r.queue.empty() && !r.committed) r.ready_since = now;
-  status.state = CommandState::queued;
-  publish(status, out);
-  r.queue.push_back({status, event.motion, event.priority, std::move(*motion), 0});
+  ++revision_;
+  if (!r.next() && !r.committed) r.ready_since = now;
+  command.status.state = CommandState::queued;
+  publish(command.status, out);
+  command.motion = std::move(*motion);
+  r.queue.push_back(std::move(command));
   schedule(now, out);
   return out;
 }
 
+/// The motion of the command at the front of the main queue. When an escape has left the robot where the command is impossible, the way
+/// back to where it was judged from goes into the escape queue first.
+model::Result<SampledMotionPtr, model::MotionError> Planner::admit_next(RobotRecord& r, const QueuedCommand& command) {
+  model::Joints from = r.joints_after_motion();
+  auto direct = admit(*cell_, index_of(r), from, command.request);
+  if (direct || r.way_back.empty()) return direct;
+  std::deque<QueuedCommand> way;
+  for (auto back = r.way_back.rbegin(); back != r.way_back.rend(); ++back) {
+    auto motion = admit(*cell_, index_of(r), from, *back);
+    if (!motion) return direct;
+    from = (*motion)->motion().to();
+    QueuedCommand escape;
+    escape.origin = QueuedCommand::Origin::way_back;
+    escape.status.id = model::CommandId{options_.escape_prefix + std::to_string(++last_escape_)};
+    escape.status.robot = r.robot->name;
+    escape.status.escape = true;
+    escape.status.serves = command.status.id;
+    escape.status.reason = Reason::escape;
+    escape.status.submitted = command.status.submitted;
+    escape.request = *back;
+    escape.motion = std::move(*motion);
+    way.push_back(std::move(escape));
+    if (auto motion_from_there = admit(*cell_, index_of(r), from, command.request)) {
+      r.escapes = std::move(way);
+      return motion_from_there;
+    }
+  }
+  return direct;
+}
+
+/// Gives up what stands in the escape queue.
+void Planner::drop_escapes(RobotRecord& r, Decisions& out) {
+  for (QueuedCommand& escape : r.escapes) {
+    if (known_.find(escape.status.id) == known_.end()) continue;  // nobody has heard of it
+    escape.status.state = CommandState::cancelled;
+    escape.status.text = "no longer needed";
+    publish(escape.status, out);
+  }
+  r.escapes.clear();
+}
+
+/// Judges the queues again from where the robot will be.
 void Planner::rejudge_queue(RobotRecord& r, Decisions& out) {
-  model::Joints from = r.joints_before_queue();
+  ++revision_;
+  drop_escapes(r, out);
+  model::Joints from = r.joints_after_motion();
   for (auto it = r.queue.begin(); it != r.queue.end();) {
     if ((it->motion->motion().from() - from).cwiseAbs().maxCoeff() > 0) {
-      auto motion = admit(index_of(r), from, it->request);
+      auto motion = it == r.queue.begin() ? admit_next(r, *it) : admit(*cell_, index_of(r), from, it->request);
       if (!motion) {
         reject(it->status, motion.error().reason, fmt::format("no longer possible from where the robot is now: {}", motion.error().text),
                out);
@@ -120,8 +161,9 @@ bool Planner::cancel(RobotRecord& r, const model::CommandId& id, Decisions& out)
   }
   if (!r.committed || r.committed->command.status.id != id || r.committed->phase == Commitment::Phase::started) return false;
   if (r.committed->phase == Commitment::Phase::held) {
+    const bool by_client = r.committed->command.origin == QueuedCommand::Origin::client;
     put_back(r, Reason::none, {}, out);
-    return cancel(r, id, out);
+    return !by_client || cancel(r, id, out);
   }
   r.committed->cancel_requested = true;  // final once the proxy says it has not started
   out.withdrawals.push_back({id, r.robot->name, r.committed->command.attempts});
@@ -171,6 +213,7 @@ Decisions Planner::on(const model::StopRequested& event, Instant now) {
   }
   RobotRecord& r = robots_[*index];
   std::size_t given_up = r.queue.size();
+  drop_escapes(r, out);
   while (!r.queue.empty()) cancel(r, model::CommandId{r.queue.back().status.id}, out);
   if (r.committed && r.committed->phase != Commitment::Phase::started) {
     ++given_up;

@@ -19,6 +19,9 @@ namespace {
 /// Joints nearer than this to where a robot is thought to stand are the same place [rad].
 constexpr double kSamePlace = 1e-4;
 
+/// Places a robot came from that are remembered for a retreat.
+constexpr std::size_t kTrail = 3;
+
 /// A robot is seen moving from this long after the start of its motion until this long before its end.
 constexpr Duration kUnderWay = std::chrono::milliseconds{200};
 
@@ -42,25 +45,36 @@ void append(Decisions more, Decisions& out) {
 
 }  // namespace
 
-void Planner::stand_at(RobotRecord& r, const model::Joints& q, Instant now, Decisions& out) {
+void Planner::stand_at(RobotRecord& r, const model::Joints& q, Instant now, Decisions& out, bool escaped) {
   if ((r.standing->motion().to() - q).cwiseAbs().maxCoeff() > 0) {
     r.standing = std::make_shared<SampledMotion>(model::Motion::rest(*r.robot, q), cell_->planning.resolution);
   }
-  r.ready_since = now;
+  // A robot that was only sent out of the way keeps its place among those that wait.
+  if (!escaped || r.queue.empty()) r.ready_since = now;
   rejudge_queue(r, out);
 }
 
 void Planner::put_back(RobotRecord& r, Reason why, const std::string& text, Decisions& out) {
   QueuedCommand command = std::move(r.committed->command);
   r.committed.reset();
-  command.status.state = why == Reason::none ? CommandState::queued : CommandState::waiting;
-  command.status.reason = why;
-  command.status.text = text;
   command.status.start.reset();
   command.status.end.reset();
   command.status.conflicts.clear();
+  ++revision_;
+  if (command.origin == QueuedCommand::Origin::escape) {
+    // What it made room for is planned anew, and may need another escape or none.
+    command.status.state = CommandState::cancelled;
+    command.status.text = why == Reason::none ? "no longer needed" : text;
+    publish(command.status, out);
+    if (!r.way_back.empty()) r.way_back.pop_back();
+    rejudge_queue(r, out);
+    return;
+  }
+  command.status.state = why == Reason::none ? CommandState::queued : CommandState::waiting;
+  command.status.reason = why;
+  command.status.text = text;
   if (why != Reason::none) publish(command.status, out);
-  r.queue.push_front(std::move(command));
+  (command.origin == QueuedCommand::Origin::way_back ? r.escapes : r.queue).push_front(std::move(command));
 }
 
 /// Takes back what was decided in the belief that `robot` would do what it promised, as far as it has not begun.
@@ -105,8 +119,11 @@ Decisions Planner::on(const model::PostureReported& event, Instant now) {
   const bool ours = r.committed && r.committed->phase == Commitment::Phase::started;
   r.foreign = event.moving && !ours;
   bool changed = was_lost != r.lost() || was_ready != r.ready;
+  if (changed) ++revision_;
   if (!event.moving && !sent && (event.joints - r.standing->motion().to()).cwiseAbs().maxCoeff() > kSamePlace) {
     if (r.committed) put_back(r, Reason::none, {}, out);
+    r.way_back.clear();
+    r.trail.clear();
     stand_at(r, event.joints, now, out);
     revoke_dependents(*index, out);
     changed = true;
@@ -199,12 +216,21 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
       status.end = event.at;
       if (c.phase != Commitment::Phase::started) r.last_started = c.serial;
       publish(status, out);
-      ++completed_;
-      const model::Joints promised = c.command.motion->motion().to();
+      const model::Motion& motion = c.command.motion->motion();
+      const model::Joints promised = motion.to();
       const bool arrived = (event.joints - promised).cwiseAbs().maxCoeff() <= kSamePlace;
+      const auto origin = c.command.origin;
+      if (origin == QueuedCommand::Origin::client) ++completed_;
+      if (origin == QueuedCommand::Origin::way_back && !r.way_back.empty()) r.way_back.pop_back();
+      r.trail.push_front(undoing(motion));
+      if (r.trail.size() > kTrail) r.trail.pop_back();
+      if (!arrived) {
+        r.way_back.clear();
+        r.trail.clear();
+      }
       r.known_at = std::max(r.known_at, std::min(event.at, now));
       r.committed.reset();
-      stand_at(r, arrived ? promised : event.joints, now, out);
+      stand_at(r, arrived ? promised : event.joints, now, out, origin != QueuedCommand::Origin::client);
       if (!arrived) revoke_dependents(*index, out);
       break;
     }
@@ -234,6 +260,8 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
       if (c.phase != Commitment::Phase::started) r.last_started = c.serial;
       revoke_dependents(*index, out);
       r.known_at = std::max(r.known_at, std::min(event.at, now));
+      r.way_back.clear();
+      r.trail.clear();
       r.committed.reset();
       stand_at(r, event.joints, now, out);
       revoke_dependents(*index, out);
@@ -247,6 +275,7 @@ void Planner::notice_silence(Instant now, Decisions& out) {
   for (RobotRecord& r : robots_) {
     if (options_.posture_timeout && r.heard && now - r.last_heard > *options_.posture_timeout) {
       r.heard = false;
+      ++revision_;
       revoke_dependents(index_of(r), out);
     }
     if (const auto outcome = unreported_outcome(r, now)) append(on(*outcome, now), out);

@@ -5,9 +5,6 @@
 
 namespace interlace::core {
 
-namespace {
-
-/// Radius [m] around the shoulder's height on axis 1 that no point of the robot leaves, whatever its joints.
 double reach_radius(const model::RobotModel& m) {
   const auto& p = m.kinematics.parameters();
   const double forearm = m.kinematics.forearm_length();
@@ -21,8 +18,6 @@ double reach_radius(const model::RobotModel& m) {
   for (const auto& c : m.capsules) radius = std::max(radius, origin[c.link] + std::max(c.a.norm(), c.b.norm()) + c.radius);
   return radius;
 }
-
-}  // namespace
 
 bool enters_reach(SampledMotion& motion, const model::Robot& other) {
   const Vector3 centre = other.X_WB * Vector3{0, 0, other.model.kinematics.parameters().c1};

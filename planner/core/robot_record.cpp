@@ -2,12 +2,13 @@
 
 namespace interlace::core {
 
-const model::Joints& RobotRecord::joints_before_queue() const {
+const model::Joints& RobotRecord::joints_after_motion() const {
   return committed ? committed->command.motion->motion().to() : standing->motion().to();
 }
 
 const model::Joints& RobotRecord::joints_at_end() const {
-  return queue.empty() ? joints_before_queue() : queue.back().motion->motion().to();
+  if (!queue.empty()) return queue.back().motion->motion().to();
+  return escapes.empty() ? joints_after_motion() : escapes.back().motion->motion().to();
 }
 
 Neighbour RobotRecord::as_neighbour(model::RobotIndex index, Instant now) const {

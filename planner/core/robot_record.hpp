@@ -9,6 +9,12 @@ namespace interlace::core {
 
 /// An admitted command, with the motion it will be from where its robot will then be.
 struct QueuedCommand {
+  enum class Origin {
+    client,
+    escape,   ///< out of the way of the command it serves
+    way_back  ///< to where the robot was before it escaped, because its next command is possible only from there
+  };
+  Origin origin = Origin::client;
   model::CommandStatus status;
   model::MotionRequest request;
   int priority = 0;
@@ -47,6 +53,11 @@ struct RobotRecord {
   std::optional<model::PostureReported> stood;  ///< newest posture that saw it standing
   SampledMotionPtr standing;                    ///< where it stands, or stood when its motion began
   std::deque<QueuedCommand> queue;              ///< main queue: admitted, in order
+  std::deque<QueuedCommand> escapes;            ///< escape queue: goes before the main queue
+  std::vector<model::MotionRequest> way_back;   ///< undoes the escapes since the robot's last own command, the newest last
+  std::deque<model::MotionRequest> trail;       ///< undoes its last motions, the newest first
+  std::vector<model::RobotIndex> blockers;      ///< that leave its next command no start, as last assessed
+  std::uint64_t room_sought = 0;                ///< revision of the scene for which room for its next command was sought in vain
   std::optional<Commitment> committed;          ///< at most one at a time
   std::uint64_t last_serial = 0;
   std::uint64_t last_started = 0;  ///< serial of the newest commitment that began
@@ -55,11 +66,15 @@ struct RobotRecord {
   /// Neither heard from nor explained by what we told it: it may be anywhere in its reach.
   [[nodiscard]] bool lost() const { return !heard || foreign; }
 
-  /// Posture the robot will have when the queue is done [rad].
+  /// The command whose turn it is, if any.
+  [[nodiscard]] QueuedCommand* next() { return !escapes.empty() ? &escapes.front() : !queue.empty() ? &queue.front() : nullptr; }
+  [[nodiscard]] const QueuedCommand* next() const { return const_cast<RobotRecord*>(this)->next(); }
+
+  /// Posture the robot will have when both queues are done [rad].
   [[nodiscard]] const model::Joints& joints_at_end() const;
 
-  /// Posture from which the head of the queue will start [rad].
-  [[nodiscard]] const model::Joints& joints_before_queue() const;
+  /// Posture the robot will have when what it is doing is done [rad].
+  [[nodiscard]] const model::Joints& joints_after_motion() const;
 
   /// As its neighbours have to see it at `now`.
   [[nodiscard]] Neighbour as_neighbour(model::RobotIndex index, Instant now) const;

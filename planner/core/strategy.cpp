@@ -39,9 +39,14 @@ class Direct final : public Strategy {
 };
 
 /// The earliest start that is clear of everything committed, for whole bodies and any number of robots.
-class Event final : public Strategy {
+class Event : public Strategy {
  public:
   [[nodiscard]] std::string_view name() const override { return "event"; }
+  [[nodiscard]] Service service() const override {
+    Service s;
+    s.escapes = true;
+    return s;
+  }
 
   [[nodiscard]] Assessment assess(const Candidate& candidate, const std::vector<Neighbour>& neighbours, const Timing& timing,
                                   MapStore& maps) const override {
@@ -50,7 +55,12 @@ class Event final : public Strategy {
     std::vector<std::vector<ForbiddenStart>> by_neighbour;
     for (const Neighbour& n : neighbours) {
       by_neighbour.push_back(forbidden_by(candidate, n, timing, maps, a));
-      for (const ForbiddenStart& f : by_neighbour.back()) all.push_back(f.interval);
+      bool for_good = false;
+      for (const ForbiddenStart& f : by_neighbour.back()) {
+        all.push_back(f.interval);
+        for_good = for_good || f.interval.until == model::kForever;
+      }
+      if (for_good) a.blockers.push_back(n.robot);
     }
     a.windows = complement(united(std::move(all)), timing.earliest);
     if (!a.windows.empty()) a.start = a.windows.front().from;
@@ -102,15 +112,32 @@ class Event final : public Strategy {
   }
 };
 
+/// The dissertation as written: one commanded robot at a time in the order of the cell, escapes in six directions, and only when all stand.
+class Acm final : public Event {
+ public:
+  [[nodiscard]] std::string_view name() const override { return "acm"; }
+  [[nodiscard]] Service service() const override {
+    Service s;
+    s.in_turn = true;
+    s.escapes = true;
+    s.rules.six_directions_only = true;
+    s.rules.brake_after_area = true;
+    s.rules.cascade = 1;
+    s.rules.keep_next = false;
+    return s;
+  }
+};
+
 }  // namespace
 
 const std::vector<std::string_view>& strategy_names() {
-  static const std::vector<std::string_view> names{"direct", "event"};
+  static const std::vector<std::string_view> names{"direct", "acm", "event"};
   return names;
 }
 
 std::unique_ptr<Strategy> make_strategy(std::string_view name) {
   if (name == "direct") return std::make_unique<Direct>();
+  if (name == "acm") return std::make_unique<Acm>();
   if (name == "event") return std::make_unique<Event>();
   return nullptr;
 }

@@ -62,14 +62,30 @@ struct Assessment {
   std::optional<Instant> start;  ///< empty: none, a deadlock as things are
   std::vector<StartInterval> windows;
   std::vector<model::Conflict> conflicts;     ///< one per neighbour that delays or blocks
+  std::vector<model::RobotIndex> blockers;    ///< neighbours that forbid every start from some time on
   std::vector<model::RobotIndex> departures;  ///< neighbours that must have started before this start may be sent
   model::Reason reason = model::Reason::none;
+};
+
+/// Which escapes may be looked for.
+struct EscapeRules {
+  bool six_directions_only = false;  ///< the dissertation's: no retreat, no home pose
+  bool brake_after_area = false;     ///< the dissertation's real goal: braking begins where the collision area ends
+  int cascade = 3;                   ///< an escape may itself need room: how deep that goes; 1: not at all
+  bool keep_next = true;             ///< prefer goals from which the robot's next command can be carried out
 };
 
 /// Times the planner must keep around a decision.
 struct Timing {
   Instant earliest{};  ///< no start before: now + lead
   Duration confirm{};  ///< from a neighbour's latest start until the planner has surely heard of it and can act on it
+};
+
+/// What a strategy does beyond choosing starts.
+struct Service {
+  bool in_turn = false;  ///< robots are served in turn 1 … n, one commanded robot at a time; else whoever can start does
+  bool escapes = false;  ///< deadlocks are resolved by escapes
+  EscapeRules rules;     ///< which
 };
 
 /// How starts are chosen. Stateless; one object serves all robots of a cell.
@@ -81,6 +97,7 @@ class Strategy {
   virtual ~Strategy() = default;
 
   [[nodiscard]] virtual std::string_view name() const = 0;
+  [[nodiscard]] virtual Service service() const { return {}; }
 
   /// Start of `candidate` in sight of `neighbours`.
   [[nodiscard]] virtual Assessment assess(const Candidate& candidate, const std::vector<Neighbour>& neighbours, const Timing& timing,

@@ -29,6 +29,13 @@ class Desk {
     return o;
   }
 
+  /// As usual, but a deadlocked command waits: nobody is sent out of its way.
+  static core::PlannerOptions without_escapes() {
+    core::PlannerOptions o = usual();
+    o.escapes = false;
+    return o;
+  }
+
   explicit Desk(std::shared_ptr<const model::Cell> its_cell = experiment_cell(true), const core::PlannerOptions& options = usual())
       : cell(std::move(its_cell)), planner(cell, options) {}
 

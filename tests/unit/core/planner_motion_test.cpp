@@ -51,7 +51,7 @@ TEST(PlannerMotion, AMotionThatMeetsNobodyStartsAtOnce) {
 }
 
 TEST(PlannerMotion, ADeadlockedCommandWaitsSaysWhyAndGoesWhenItCan) {
-  Desk desk;
+  Desk desk{experiment_cell(true), Desk::without_escapes()};
   desk.all_stand();
   desk.go("out", "r1", to_centre());
   desk.submit("in", "r2", to_centre());
@@ -134,7 +134,7 @@ TEST(PlannerMotion, AMarginKeepsRobotsFurtherApart) {
   const auto delay_with = [](double margin) {
     auto cell = experiment_cell();
     cell->planning.margin = margin;
-    Desk desk{cell};
+    Desk desk{cell, Desk::without_escapes()};
     desk.all_stand();
     desk.submit("a", "r1", line_to(pose_mm(450, 150, 300)));
     desk.submit("b", "r2", line_to(pose_mm(450, -150, 300)));
@@ -145,7 +145,7 @@ TEST(PlannerMotion, AMarginKeepsRobotsFurtherApart) {
 }
 
 TEST(PlannerMotion, StateTellsModesQueuesAndReasons) {
-  Desk desk;
+  Desk desk{experiment_cell(true), Desk::without_escapes()};
   EXPECT_EQ(desk.planner.state(desk.now).robots[0].mode, model::RobotMode::unknown);
   desk.all_stand();
   desk.go("out", "r1", to_centre());

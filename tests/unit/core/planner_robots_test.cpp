@@ -168,7 +168,7 @@ TEST(PlannerRobots, RepeatedReportsChangeNothing) {
 }
 
 TEST(PlannerRobots, AJoggedRobotsQueueIsJudgedAnew) {
-  Desk desk;
+  Desk desk{experiment_cell(true), Desk::without_escapes()};
   desk.all_stand();
   desk.go("out", "r1", to_centre());
   desk.submit("in", "r2", to_centre());  // waits: r1 stands there
@@ -298,7 +298,7 @@ TEST(PlannerRobots, ALostMotionIsSeenFromThePosture) {
 
 /// Topics overtake each other: a posture from before the start, or from the motion, may come after the report that it ended.
 TEST(PlannerRobots, APostureOlderThanAReportChangesNothing) {
-  Desk desk;
+  Desk desk{experiment_cell(true), Desk::without_escapes()};
   desk.all_stand();
   desk.go("a", "r1", to_centre());
   const auto d = desk.dispatch_of("a");

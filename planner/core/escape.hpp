@@ -1,0 +1,86 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "planner/core/escape_goal.hpp"
+#include "planner/core/strategy.hpp"
+
+namespace interlace::core {
+
+/// A robot as the search for escapes has to see it.
+struct EscapeView {
+  Neighbour now;                            ///< as everyone sees it
+  std::string immovable;                    ///< why it cannot be sent anywhere; empty: it can
+  Duration tolerance{};                     ///< its latest start after the planned one
+  std::vector<model::MotionRequest> trail;  ///< back along the path it came, newest place first
+  model::MotionRequest home;
+  const model::MotionRequest* next = nullptr;  ///< first command that waits for it
+};
+
+/// A motion with the start chosen for it.
+struct PlannedMotion {
+  model::RobotIndex robot = 0;
+  model::EscapeWay way = model::EscapeWay::plus_x;
+  model::MotionRequest request;
+  SampledMotionPtr motion;
+  Duration tolerance{};
+  Assessment assessment;
+};
+
+/// Escapes in the order in which they start, and the start of the motion they make room for.
+struct EscapePlan {
+  std::vector<PlannedMotion> escapes;
+  Assessment served;
+};
+
+/// Every way out that was looked at and why it does not help.
+using EscapeRefusals = std::vector<model::EscapeRefusal>;
+
+/// Searches escapes for the robots that stand in the way of a commanded one: each blocker in turn, nearest to the swept cuboid first, is
+/// given a goal clear of everything the commanded robot will sweep, its path and start clear of everybody else, and is a moving robot for
+/// the next one. An escape that is itself blocked has that blocker escape first. Motions of others are facts; nothing is decided here.
+/// One object serves one search. Pure. Source: dissertation sections 5.2 and 6.3, DESIGN section 6.
+class EscapeSearch {
+ public:
+  EscapeSearch(const model::Cell& cell, std::vector<EscapeView> robots, const Strategy& strategy, const Timing& timing, MapStore& maps);
+
+  /// Room for `served`, which has no start as things are.
+  [[nodiscard]] model::Result<EscapePlan, EscapeRefusals> make_room(const Candidate& served);
+
+ private:
+  struct Way {
+    model::EscapeWay way;
+    RequestedMotion full;  // to the reachable goal
+    std::string why;       // there is none
+  };
+  using Goal = std::function<bool()>;
+
+  bool serve(PlannedMotion motion, int depth, const Goal& then);
+  bool clear_by(model::RobotIndex blocker, const PlannedMotion& motion, int depth, const Goal& then);
+  const std::vector<Way>& ways_of(model::RobotIndex robot, const SampledMotionPtr& served);
+  RequestedMotion out_of_the_way(model::RobotIndex robot, const Way& way);
+  const RequestedMotion& cut(model::RobotIndex robot, const Way& way, double length);
+  [[nodiscard]] std::optional<double> first_clear(const SampledMotionPtr& full);
+  [[nodiscard]] double safe_length(model::RobotIndex robot, const SampledMotionPtr& full);
+  [[nodiscard]] std::vector<Neighbour> neighbours_of(model::RobotIndex robot) const;
+  void refuse(model::RobotIndex robot, model::EscapeWay way, std::string text);
+
+  const model::Cell& cell_;
+  std::vector<EscapeView> robots_;
+  const Strategy& strategy_;
+  Timing timing_;
+  MapStore& maps_;
+  EscapeRules rules_;
+  int deepest_ = 1;
+  bool keep_next_ = true;
+  int budget_ = 0;
+  std::vector<PlannedMotion> plan_;          // decided so far, in order
+  std::vector<SampledMotionPtr> protected_;  // motions that room is being made for, outermost first
+  std::map<std::pair<model::RobotIndex, std::uint64_t>, std::vector<Way>> ways_;
+  std::map<std::pair<const SampledMotion*, long>, RequestedMotion> cut_;
+  EscapeRefusals refusals_;
+};
+
+}  // namespace interlace::core
