@@ -186,7 +186,7 @@ model::Cell read_cell(const YAML::Node& document, Findings& findings) {
 }  // namespace
 
 const std::vector<std::string>& strategy_names() {
-  static const std::vector<std::string> names{"direct", "event"};
+  static const std::vector<std::string> names{"direct", "eef-map", "event"};
   return names;
 }
 
