@@ -5,6 +5,7 @@
 #include "planner/core/eef_map.hpp"
 #include "planner/core/explain.hpp"
 #include "planner/core/reach.hpp"
+#include "planner/core/zone.hpp"
 
 namespace interlace::core {
 
@@ -110,13 +111,14 @@ std::vector<ForbiddenStart> forbidden_by_map(const Candidate& candidate, const N
 }
 
 const std::vector<std::string_view>& strategy_names() {
-  static const std::vector<std::string_view> names{"direct", "eef-map", "event"};
+  static const std::vector<std::string_view> names{"direct", "zone", "eef-map", "event"};
   return names;
 }
 
 std::unique_ptr<Strategy> make_strategy(std::string_view name, const model::Cell& cell) {
   if (name == "direct") return std::make_unique<Direct>();
   if (name == "event") return std::make_unique<Event>();
+  if (name == "zone") return std::make_unique<Zone>(cell);
   if (name == "eef-map") return std::make_unique<EefMap>(cell);
   return nullptr;
 }
