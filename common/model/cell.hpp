@@ -38,12 +38,19 @@ struct Robot {
   ControllerTraits controller;
 };
 
+/// Axis-aligned box in the world frame [m].
+struct Box {
+  Vector3 min = Vector3::Zero();
+  Vector3 max = Vector3::Zero();
+};
+
 struct PlanningOptions {
   double resolution = 0.01;  ///< smallest cell of a collision map [s]
   double margin = 0;         ///< clearance kept beyond contact [m]
   std::string strategy = "event";
   std::optional<double> lead;             ///< shortest time from a decision to a start [s]; default: the program's own
   std::optional<double> start_tolerance;  ///< latest start after the planned one, before the controller's own latency [s]; ditto
+  std::optional<Box> zone;                ///< of the strategy `zone`; default: made from what the robots can reach
 };
 
 /// Checked description of one cell: at least one robot, unique names, start postures reachable, inside limits and clear of each other.

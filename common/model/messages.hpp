@@ -87,8 +87,8 @@ enum class Reason : std::uint8_t {
 /// Which bodies come too near, when, and by how much: the evidence behind a delay or a refusal (DESIGN section 7).
 struct Conflict {
   RobotName blocker;
-  std::string own_link;
-  std::string blocker_link;
+  std::string own_link;             ///< empty when the blocker could be anywhere
+  std::string blocker_link;         ///< empty as well when the blocker holds the shared zone: it need not be near
   Instant from{};                   ///< first start that this conflict forbids
   Instant until = kForever;         ///< starts are free again from here on as far as this blocker goes; kForever: no end is known
   double clearance = 0;             ///< predicted clearance at the conflict's deepest examined point [m]

@@ -48,6 +48,12 @@ Joints Motion::between_knots(double t) const {
   return knots_[i] + (x - static_cast<double>(i)) * (knots_[i + 1] - knots_[i]);
 }
 
+Motion Motion::with_bodies_of(const Robot& robot) const {
+  Motion same = *this;
+  same.robot_ = &robot;
+  return same;
+}
+
 Joints Motion::joints(double t) const {
   if (t <= 0 || knots_.size() == 1) return knots_.front();
   if (t >= duration_) return knots_.back();

@@ -30,6 +30,9 @@ class Motion {
   /// Standing at `q`: duration 0.
   [[nodiscard]] static Motion rest(const Robot& robot, const Joints& q);
 
+  /// The same motion of `robot`: the same arm on the same base, of which only the capsules may differ. It must outlive the result.
+  [[nodiscard]] Motion with_bodies_of(const Robot& robot) const;
+
   [[nodiscard]] const Robot& robot() const { return *robot_; }
   [[nodiscard]] double duration() const { return duration_; }  ///< [s]
   [[nodiscard]] const Joints& from() const { return knots_.front(); }

@@ -54,7 +54,7 @@ std::array<EscapeDirection, 6> escape_directions(const Cuboid& cuboid, const Vec
 RequestedMotion to_reachable_goal(const model::Cell& cell, model::RobotIndex index, const model::Joints& from, const Vector3& unit) {
   const model::Robot& robot = cell.robots[index];
   const model::Pose X_WT = robot.X_WB * model::tcp_pose(robot.model, from);
-  double length = 2 * reach_radius(robot.model);
+  double length = 2 * reachable_volume(robot).radius;
   for (int i = 0; i < kTries && length >= kShortest; ++i) {
     model::Pose goal = X_WT;
     goal.translation() += length * unit;

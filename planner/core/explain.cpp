@@ -57,6 +57,26 @@ std::optional<model::Conflict> explain_conflict(const Candidate& candidate, cons
   return c;
 }
 
+std::optional<model::Conflict> zone_conflict(const Candidate& candidate, const ZoneVisit& visit, const Neighbour& holder,
+                                             const std::vector<ForbiddenStart>& forbidden, const StartInterval& span) {
+  std::vector<StartInterval> intervals;
+  for (const ForbiddenStart& f : forbidden) {
+    if (f.interval.until >= span.from && f.interval.from < span.until) intervals.push_back(f.interval);
+  }
+  if (intervals.empty()) return std::nullopt;
+  const auto stretches = united(std::move(intervals));
+  const model::Robot& robot = candidate.motion->robot();
+  std::vector<model::Capsule> capsules;
+  model::place_capsules(robot.model, robot.X_WB, candidate.motion->motion().joints(visit.entered), capsules);
+  model::Conflict c;
+  c.blocker = holder.motion->robot().name;
+  c.own_link = robot.model.capsules[visit.body].name;
+  c.from = std::max(stretches.front().from, span.from);
+  c.until = stretches.back().until;
+  c.place = (capsules[visit.body].a + capsules[visit.body].b) / 2;
+  return c;
+}
+
 model::Conflict lost_conflict(const Candidate& candidate, const Neighbour& neighbour, Instant from) {
   model::Conflict c;
   c.blocker = neighbour.motion->robot().name;
@@ -76,8 +96,10 @@ std::string sentence(const model::RobotName& robot, const Assessment& a, double 
       text += fmt::format("{}{} was not heard from", text.empty() ? "" : "; ", c.blocker.str());
       continue;
     }
-    text += fmt::format("{}{}'s {} would meet {}'s {} near ({:.0f}, {:.0f}, {:.0f}) mm", text.empty() ? "" : "; ", robot.str(), c.own_link,
-                        c.blocker.str(), c.blocker_link, 1e3 * c.place.x(), 1e3 * c.place.y(), 1e3 * c.place.z());
+    const std::string what = c.blocker_link.empty() ? fmt::format("be in the zone that {} holds", c.blocker.str())
+                                                    : fmt::format("meet {}'s {}", c.blocker.str(), c.blocker_link);
+    text += fmt::format("{}{}'s {} would {} near ({:.0f}, {:.0f}, {:.0f}) mm", text.empty() ? "" : "; ", robot.str(), c.own_link, what,
+                        1e3 * c.place.x(), 1e3 * c.place.y(), 1e3 * c.place.z());
     text += c.until == model::kForever ? fmt::format(" as long as {} stays there", c.blocker.str())
                                        : fmt::format(" if it started before {:.2f} s", model::to_seconds(c.until));
   }

@@ -18,7 +18,7 @@ using model::RobotMode;
 Planner::Planner(std::shared_ptr<const model::Cell> cell, PlannerOptions options)
     : cell_(std::move(cell)),
       options_(std::move(options)),
-      strategy_(make_strategy(options_.strategy)),
+      strategy_(make_strategy(options_.strategy, *cell_)),
       maps_(cell_->planning.margin, options_.stopwatch) {
   if (!strategy_) throw std::invalid_argument(fmt::format("unknown strategy \"{}\"", options_.strategy));
   robots_.resize(cell_->robots.size());

@@ -5,30 +5,49 @@
 
 namespace interlace::core {
 
-double reach_radius(const model::RobotModel& m) {
-  const auto& p = m.kinematics.parameters();
-  const double forearm = m.kinematics.forearm_length();
-  // Farthest an origin of each link's frame can be from the point at height c1 on axis 1, plus the capsule's own extent.
+namespace {
+
+/// Distances here are sums of a few lengths below some metres [m].
+constexpr double kRounding = 1e-9;
+
+}  // namespace
+
+ReachableVolume reachable_volume(const model::Robot& robot) {
+  const auto& p = robot.model.kinematics.parameters();
   const double shoulder = std::abs(p.a1);
-  const double elbow = shoulder + std::hypot(p.b, p.c2);
-  const double wrist = elbow + forearm;
-  const double flange = wrist + std::abs(p.c4);
-  const std::array<double, 7> origin{p.c1, p.c1, shoulder, elbow, wrist, wrist, flange};
-  double radius = 0;
-  for (const auto& c : m.capsules) radius = std::max(radius, origin[c.link] + std::max(c.a.norm(), c.b.norm()) + c.radius);
-  return radius;
+  const double elbow = std::hypot(shoulder + std::abs(p.c2), p.b);
+  const double wrist = std::hypot(shoulder + std::abs(p.c2) + robot.model.kinematics.forearm_length(), p.b);
+  // Of each link: a point fixed to it (in its frame) and how far that point can be from the centre. The capsules turn about that point.
+  struct Pivot {
+    Vector3 place;
+    double distance;
+  };
+  const Vector3 centre{0, 0, p.c1};
+  const std::array<Pivot, 7> pivots{{{centre, 0},
+                                     {centre, 0},
+                                     {Vector3::Zero(), shoulder},
+                                     {Vector3::Zero(), elbow},
+                                     {Vector3::Zero(), wrist},
+                                     {Vector3::Zero(), wrist},
+                                     {{0, 0, -p.c4}, wrist}}};
+  ReachableVolume volume{robot.X_WB * centre, 0};
+  for (const auto& c : robot.model.capsules) {
+    const Pivot& pivot = pivots[c.link];
+    const double extent = std::max((c.a - pivot.place).norm(), (c.b - pivot.place).norm()) + c.radius;
+    volume.radius = std::max(volume.radius, pivot.distance + extent + kRounding);
+  }
+  return volume;
 }
 
 bool enters_reach(SampledMotion& motion, const model::Robot& other) {
-  const Vector3 centre = other.X_WB * Vector3{0, 0, other.model.kinematics.parameters().c1};
-  const double radius = reach_radius(other.model);
+  const ReachableVolume volume = reachable_volume(other);
   const int level = std::min(motion.depth(), 5);
   for (std::size_t index = 0; index < (std::size_t{1} << level); ++index) {
     const auto& piece = motion.piece(level, index);
     for (std::size_t i = 0; i < piece.bodies.size(); ++i) {
       const Body& b = piece.bodies[i];
-      const double apart = (b.X_WC.translation() - centre).norm() - b.axis->lz / 2 - b.radius - piece.reach[i];
-      if (apart <= radius) return true;
+      const double apart = (b.X_WC.translation() - volume.centre).norm() - b.axis->lz / 2 - b.radius - piece.reach[i];
+      if (apart <= volume.radius) return true;
     }
   }
   return false;

@@ -4,11 +4,25 @@
 
 namespace interlace::core {
 
-/// Radius [m] of the sphere around the shoulder's height on axis 1 that no point of the robot leaves, whatever its joints.
-[[nodiscard]] double reach_radius(const model::RobotModel& model);
+/// A ball that no point of a robot leaves, whatever its joints. World frame.
+struct ReachableVolume {
+  Vector3 centre = Vector3::Zero();  ///< [m]
+  double radius = 0;                 ///< [m]
 
-/// True unless it is proven that no body of `motion` ever comes into the sphere that `other` can reach with any of its points: where a
-/// robot that is not heard from could be.
+  /// True unless the two are more than `margin` [m] apart.
+  [[nodiscard]] bool meets(const ReachableVolume& other, double margin) const {
+    return (centre - other.centre).norm() <= radius + other.radius + margin;
+  }
+};
+
+/// The ball around the point of axis 1 at the shoulder's height that holds all capsules of `robot` in every posture. The arm itself may be
+/// stretched in any direction: joint limits are not used, so the ball is also good for a robot that has left them.
+/// Proof: capsules of links 0 and 1 turn about axis 1 and keep their distance from the centre; the elbow and the wrist move in a plane at
+/// the distance b from the centre, stretched at most to a1 + c2 and a1 + c2 + k; links 4 to 6 turn about the wrist centre.
+[[nodiscard]] ReachableVolume reachable_volume(const model::Robot& robot);
+
+/// True unless it is proven that no body of `motion` ever comes into the reachable volume of `other`: where a robot that is not heard from
+/// could be.
 [[nodiscard]] bool enters_reach(SampledMotion& motion, const model::Robot& other);
 
 }  // namespace interlace::core

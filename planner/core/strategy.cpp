@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "planner/core/eef_map.hpp"
 #include "planner/core/explain.hpp"
 #include "planner/core/reach.hpp"
+#include "planner/core/zone.hpp"
 
 namespace interlace::core {
 
@@ -91,24 +93,7 @@ class Event : public Strategy {
       if (!enters_reach(*candidate.motion, n.motion->robot())) return {};
       return {{{model::kEarliest, model::kForever}, 0}};
     }
-    const TimingMap& map = maps.get(candidate.motion, n.motion);
-    StartUncertainty u;
-    u.moving_from = n.start_from;
-    u.moving_until = n.start_until;
-    u.moving_stretch = n.motion->robot().controller.speed_error;
-    u.commanded_stretch = candidate.motion->robot().controller.speed_error;
-    u.commanded_tolerance = candidate.tolerance;
-    auto forbidden = forbidden_starts(map, u);
-    if (n.committed && !n.started) {
-      // The neighbour may yet fail to start. Where that would leave it in the way, its departure must be known before we leave.
-      const auto in_the_way = std::find_if(map.blocked.begin(), map.blocked.end(), [](const BlockedCell& c) { return c.t0 == -kNever; });
-      if (in_the_way != map.blocked.end()) {
-        a.departures.push_back(n.robot);
-        const Instant until = n.overdue ? model::kForever : n.start_until + timing.confirm;
-        forbidden.push_back({{model::kEarliest, until}, static_cast<std::size_t>(in_the_way - map.blocked.begin())});
-      }
-    }
-    return forbidden;
+    return forbidden_by_map(candidate, n, timing, maps.get(candidate.motion, n.motion), a.departures);
   }
 };
 
@@ -130,15 +115,38 @@ class Acm final : public Event {
 
 }  // namespace
 
+std::vector<ForbiddenStart> forbidden_by_map(const Candidate& candidate, const Neighbour& n, const Timing& timing, const TimingMap& map,
+                                             std::vector<model::RobotIndex>& departures) {
+  StartUncertainty u;
+  u.moving_from = n.start_from;
+  u.moving_until = n.start_until;
+  u.moving_stretch = n.motion->robot().controller.speed_error;
+  u.commanded_stretch = candidate.motion->robot().controller.speed_error;
+  u.commanded_tolerance = candidate.tolerance;
+  auto forbidden = forbidden_starts(map, u);
+  if (n.committed && !n.started) {
+    // The neighbour may yet fail to start. Where that would leave it in the way, its departure must be known before we leave.
+    const auto in_the_way = std::find_if(map.blocked.begin(), map.blocked.end(), [](const BlockedCell& c) { return c.t0 == -kNever; });
+    if (in_the_way != map.blocked.end()) {
+      departures.push_back(n.robot);
+      const Instant until = n.overdue ? model::kForever : n.start_until + timing.confirm;
+      forbidden.push_back({{model::kEarliest, until}, static_cast<std::size_t>(in_the_way - map.blocked.begin())});
+    }
+  }
+  return forbidden;
+}
+
 const std::vector<std::string_view>& strategy_names() {
-  static const std::vector<std::string_view> names{"direct", "acm", "event"};
+  static const std::vector<std::string_view> names{"direct", "zone", "eef-map", "acm", "event"};
   return names;
 }
 
-std::unique_ptr<Strategy> make_strategy(std::string_view name) {
+std::unique_ptr<Strategy> make_strategy(std::string_view name, const model::Cell& cell) {
   if (name == "direct") return std::make_unique<Direct>();
   if (name == "acm") return std::make_unique<Acm>();
   if (name == "event") return std::make_unique<Event>();
+  if (name == "zone") return std::make_unique<Zone>(cell);
+  if (name == "eef-map") return std::make_unique<EefMap>(cell);
   return nullptr;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/model/cell.hpp"
 #include "common/model/messages.hpp"
 #include "planner/core/start_windows.hpp"
 
@@ -104,8 +105,14 @@ class Strategy {
                                           MapStore& maps) const = 0;
 };
 
-/// The strategy called `name`; null when there is none. Known: strategy_names().
-[[nodiscard]] std::unique_ptr<Strategy> make_strategy(std::string_view name);
+/// Starts of `candidate` that `map` (of its motion against the neighbour's) forbids, for a neighbour that is not lost: widened by all that
+/// is uncertain about both starts, and until a neighbour whose departure clears the way is known to have left; such a one goes to
+/// `departures`.
+[[nodiscard]] std::vector<ForbiddenStart> forbidden_by_map(const Candidate& candidate, const Neighbour& neighbour, const Timing& timing,
+                                                           const TimingMap& map, std::vector<model::RobotIndex>& departures);
+
+/// The strategy called `name` for `cell`, which must outlive it; null when there is none. Known: strategy_names().
+[[nodiscard]] std::unique_ptr<Strategy> make_strategy(std::string_view name, const model::Cell& cell);
 
 [[nodiscard]] const std::vector<std::string_view>& strategy_names();
 

@@ -75,9 +75,27 @@ model::ControllerTraits read_controller(const Field& field) {
   return traits;
 }
 
+std::optional<model::Box> read_box(const Field& field, const Units& units) {
+  const auto mapping = field.mapping({"min", "max"});
+  if (!mapping) return std::nullopt;
+  const auto min_field = mapping->require("min");
+  const auto max_field = mapping->require("max");
+  const Quantity place = coordinate(units);
+  const auto min = min_field ? min_field->vector(place) : std::nullopt;
+  const auto max = max_field ? max_field->vector(place) : std::nullopt;
+  if (!min || !max) return std::nullopt;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if ((*min)[axis] < (*max)[axis]) continue;
+    max_field->refuse(std::string{"expected min < max, but "} + "xyz"[axis] + " has " + show((*min)[axis], place) + " and " +
+                      show((*max)[axis], place));
+    return std::nullopt;
+  }
+  return model::Box{*min, *max};
+}
+
 model::PlanningOptions read_planning(const Field& field, const Units& units) {
   model::PlanningOptions options;
-  const auto mapping = field.mapping({"resolution", "margin", "strategy", "lead", "start_tolerance"});
+  const auto mapping = field.mapping({"resolution", "margin", "strategy", "lead", "start_tolerance", "zone"});
   if (!mapping) return options;
   options.margin = number_or(*mapping, "margin", length(units), options.margin);
   options.lead = optional_number(*mapping, "lead", seconds(kLongestWait));
@@ -91,6 +109,7 @@ model::PlanningOptions read_planning(const Field& field, const Units& units) {
     const auto index = strategy->one_of(strategy_names());
     if (index) options.strategy = strategy_names()[*index];
   }
+  if (const auto zone = mapping->find("zone")) options.zone = read_box(*zone, units);
   return options;
 }
 
@@ -186,7 +205,7 @@ model::Cell read_cell(const YAML::Node& document, Findings& findings) {
 }  // namespace
 
 const std::vector<std::string>& strategy_names() {
-  static const std::vector<std::string> names{"direct", "acm", "event"};
+  static const std::vector<std::string> names{"direct", "zone", "eef-map", "acm", "event"};
   return names;
 }
 

@@ -101,6 +101,11 @@ std::uint64_t fingerprint(const model::Cell& cell) {
   out.text(cell.planning.strategy);
   out.maybe(cell.planning.lead);
   out.maybe(cell.planning.start_tolerance);
+  out.count(cell.planning.zone ? 1 : 0);
+  if (cell.planning.zone) {
+    out.numbers(cell.planning.zone->min);
+    out.numbers(cell.planning.zone->max);
+  }
   return fnv1a(out.str());
 }
 

@@ -181,7 +181,20 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"ToleranceWord", "start_tolerance: 0.03", "start_tolerance: little", 52, "planning.start_tolerance", "\"little\"",
                "expected a number >= 0 (s)"},
         Broken{"UnknownKey", "strategy: direct", "strateg: direct", 50, "planning.strateg", "", "did you mean \"strategy\"?"},
-        Broken{"NoMapping", "planning:\n  resolution: 0.02\n  margin: 5\n  strategy: direct\n  lead: 0.05\n  start_tolerance: 0.03\n",
+        Broken{"ZoneNoMapping", "zone: {min: [100, -130, 0], max: [600, 130, 900]}", "zone: middle", 53, "planning.zone", "\"middle\"",
+               "expected a mapping with the keys min or max"},
+        Broken{"ZoneHalf", ", max: [600, 130, 900]}", "}", 53, "planning.zone.max", "", "required key is missing"},
+        Broken{"ZoneUnknownKey", "zone: {min:", "zone: {mim: 1, min:", 53, "planning.zone.mim", "", "did you mean \"min\"?"},
+        Broken{"ZoneTwoNumbers", "max: [600, 130, 900]", "max: [600, 130]", 53, "planning.zone.max", "[600, 130]",
+               "expected a list of 3 numbers (mm)"},
+        Broken{"ZoneWord", "min: [100,", "min: [left,", 53, "planning.zone.min[0]", "\"left\"", "expected a finite number (mm)"},
+        Broken{"ZoneUpsideDown", "max: [600, 130, 900]", "max: [600, 130, -1]", 53, "planning.zone.max", "[600, 130, -1]",
+               "expected min < max, but z has 0 mm and -1 mm"},
+        Broken{"ZoneFlat", "max: [600, 130, 900]", "max: [600, -130, 900]", 53, "planning.zone.max", "[600, -130, 900]",
+               "expected min < max, but y has -130 mm and -130 mm"},
+        Broken{"NoMapping",
+               "planning:\n  resolution: 0.02\n  margin: 5\n  strategy: direct\n  lead: 0.05\n  start_tolerance: 0.03\n  zone: {min: [100, "
+               "-130, 0], max: [600, 130, 900]}\n",
                "planning: fast\n", 47, "planning", "\"fast\"", "expected a mapping"}),
     case_name);
 

@@ -54,6 +54,9 @@ TEST(CellValues, EveryKeyArrivesInSiUnits) {
   EXPECT_EQ(cell.planning.strategy, "direct");
   EXPECT_DOUBLE_EQ(cell.planning.lead.value_or(0), 0.05);
   EXPECT_DOUBLE_EQ(cell.planning.start_tolerance.value_or(0), 0.03);
+  ASSERT_TRUE(cell.planning.zone);
+  EXPECT_TRUE(cell.planning.zone->min.isApprox(model::Vector3{0.1, -0.13, 0}, kExact));
+  EXPECT_TRUE(cell.planning.zone->max.isApprox(model::Vector3{0.6, 0.13, 0.9}, kExact));
 }
 
 TEST(CellValues, WhatIsLeftOutHasItsDefault) {
@@ -81,6 +84,7 @@ robots:
   EXPECT_FALSE(robot.tcp.angular_velocity);
   EXPECT_EQ(robot.controller.latest_start(), 0);
   EXPECT_EQ(robot.model.self_pairs, model::default_self_pairs(robot.model.capsules));
+  EXPECT_FALSE(cell.planning.zone);
   EXPECT_EQ(cell.planning.strategy, "event");
   EXPECT_DOUBLE_EQ(cell.planning.resolution, 0.01);
   EXPECT_FALSE(cell.planning.lead);

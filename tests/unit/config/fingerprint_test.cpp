@@ -77,7 +77,10 @@ TEST(Fingerprint, EveryChangeOfAValueChangesIt) {
                                                                  {"margin: 5", "margin: 6"},
                                                                  {"strategy: direct", "strategy: event"},
                                                                  {"lead: 0.05", "lead: 0.06"},
-                                                                 {"  start_tolerance: 0.03\n", ""}};
+                                                                 {"  start_tolerance: 0.03\n", ""},
+                                                                 {"min: [100, -130", "min: [100, -131"},
+                                                                 {"max: [600, 130, 900]", "max: [600, 130, 901]"},
+                                                                 {"  zone: {min: [100, -130, 0], max: [600, 130, 900]}\n", ""}};
   std::set<std::uint64_t> seen{fingerprint_of(kCell)};
   for (const auto& [from, to] : changes) {
     EXPECT_TRUE(seen.insert(fingerprint_of(replaced(kCell, from, to))).second) << from << " → " << to;

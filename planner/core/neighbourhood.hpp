@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "common/model/cell.hpp"
+
+namespace interlace::core {
+
+using model::RobotIndex;
+
+/// Which robots of a cell can ever meet: only those have to look at each other. Found once, when the cell is loaded, from the reachable
+/// volumes and the cell's margin, and true whatever the robots do. In a shared workspace everybody is everybody's neighbour; in overlapped
+/// workspaces, such as a row of arms, only those near each other are.
+/// Immutable; thread-safe. Source: dissertation section 6.2.3.
+class Neighbourhood {
+ public:
+  explicit Neighbourhood(const model::Cell& cell);
+
+  /// False when it is proven that no posture brings the two to within the cell's margin of each other. A robot does not meet itself.
+  [[nodiscard]] bool meet(RobotIndex a, RobotIndex b) const { return meet_[a * neighbours_.size() + b]; }
+
+  /// The robots that `robot` can meet, in ascending order.
+  [[nodiscard]] const std::vector<RobotIndex>& of(RobotIndex robot) const { return neighbours_[robot]; }
+
+ private:
+  std::vector<bool> meet_;
+  std::vector<std::vector<RobotIndex>> neighbours_;
+};
+
+}  // namespace interlace::core
