@@ -7,6 +7,10 @@
 
 namespace interlace::monitor {
 
+namespace {
+constexpr double kRounding = 1e-9;  // [m] of distances and ways, on the safe side
+}
+
 ClearanceObserver::ClearanceObserver(const model::Cell& cell, double step, double patience)
     : cell_(cell), step_(step), patience_(patience), tracks_(cell.robots.size()) {
   for (model::RobotIndex a = 0; a < tracks_.size(); ++a) {
@@ -67,42 +71,81 @@ void ClearanceObserver::place_at(double t) {
     } else if (t - before.t > patience_) {
       continue;
     }
-    model::place_capsules(cell_.robots[i].model, cell_.robots[i].X_WB, q, track.bodies);
-    track.placed = true;
+    place(i, q);
   }
+}
+
+void ClearanceObserver::place(model::RobotIndex robot, const model::Joints& q) {
+  Track& track = tracks_[robot];
+  track.placed = true;
+  if (track.bodies.empty()) {
+    model::place_capsules(cell_.robots[robot].model, cell_.robots[robot].X_WB, q, track.bodies);
+  } else if (track.q != q) {
+    const std::vector<model::Capsule> before = track.bodies;
+    model::place_capsules(cell_.robots[robot].model, cell_.robots[robot].X_WB, q, track.bodies);
+    double farthest = 0;  // no point of an axis moves farther than one of its ends
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      farthest = std::max({farthest, (track.bodies[k].a - before[k].a).norm(), (track.bodies[k].b - before[k].b).norm()});
+    }
+    track.travelled += farthest + kRounding;
+  }
+  track.q = q;
 }
 
 void ClearanceObserver::measure(double t) {
   bool any_contact = false;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     PairClearance& pair = pairs_[k];
-    const Track& a = tracks_[pair.a];
-    const Track& b = tracks_[pair.b];
-    if (!a.placed || !b.placed) continue;
-    states_[k].seen = true;
-    bool contact = false;
-    for (std::size_t i = 0; i < a.bodies.size(); ++i) {
-      for (std::size_t j = 0; j < b.bodies.size(); ++j) {
-        const auto& x = a.bodies[i];
-        const auto& y = b.bodies[j];
-        const double d = model::segment_distance(x.a, x.b, y.a, y.b) - x.radius - y.radius;
-        contact = contact || d <= 0;
-        if (d < pair.least) {
-          pair.least = d;
-          pair.at = t;
-          pair.link_a = cell_.robots[pair.a].model.capsules[i].name;
-          pair.link_b = cell_.robots[pair.b].model.capsules[j].name;
-        }
-      }
-    }
+    PairState& state = states_[k];
+    if (!tracks_[pair.a].placed || !tracks_[pair.b].placed) continue;
+    const bool contact = measure_pair(t, pair, state);
     if (contact) {
       pair.below_zero += step_;
-      if (!states_[k].touching) ++pair.contacts;
+      if (!state.touching) ++pair.contacts;
     }
-    states_[k].touching = contact;
+    state.touching = contact;
     any_contact = any_contact || contact;
   }
   if (any_contact) below_zero_ += step_;
+}
+
+/// Whether the pair touches. Measures only what could touch or come nearer than ever, given how far both moved since they were measured.
+bool ClearanceObserver::measure_pair(double t, PairClearance& pair, PairState& state) {
+  const Track& a = tracks_[pair.a];
+  const Track& b = tracks_[pair.b];
+  const auto irrelevant = [&](double lower_bound) { return lower_bound > 0 && lower_bound > pair.least; };
+  if (state.seen) {
+    const double moved = a.travelled - state.travelled_a + b.travelled - state.travelled_b;
+    if (moved == 0) return state.touching;
+    if (irrelevant(state.clearance - moved)) return false;
+  }
+  state.seen = true;
+  state.travelled_a = a.travelled;
+  state.travelled_b = b.travelled;
+  state.clearance = std::numeric_limits<double>::infinity();
+  bool contact = false;
+  for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+    for (std::size_t j = 0; j < b.bodies.size(); ++j) {
+      const auto& x = a.bodies[i];
+      const auto& y = b.bodies[j];
+      // Spheres around both: half of the distance of the middles' doubles, less half of the lengths.
+      const double apart = ((x.a + x.b - y.a - y.b).norm() - (x.b - x.a).norm() - (y.b - y.a).norm()) / 2 - x.radius - y.radius - kRounding;
+      if (irrelevant(apart)) {
+        state.clearance = std::min(state.clearance, apart);
+        continue;
+      }
+      const double d = model::segment_distance(x.a, x.b, y.a, y.b) - x.radius - y.radius;
+      state.clearance = std::min(state.clearance, d);
+      contact = contact || d <= 0;
+      if (d < pair.least) {
+        pair.least = d;
+        pair.at = t;
+        pair.link_a = cell_.robots[pair.a].model.capsules[i].name;
+        pair.link_b = cell_.robots[pair.b].model.capsules[j].name;
+      }
+    }
+  }
+  return contact;
 }
 
 std::optional<PairClearance> ClearanceObserver::least() const {

@@ -46,14 +46,21 @@ class ClearanceObserver {
   struct Track {
     std::deque<Sample> samples;
     std::vector<model::Capsule> bodies;
-    bool placed = false;
+    bool placed = false;   // bodies are where the robot is
+    model::Joints q;       // that bodies show, once there are any
+    double travelled = 0;  // bound of the way of any of their points so far [m]
   };
   struct PairState {
     bool seen = false;
     bool touching = false;
+    // When last measured: a lower bound of the clearance, and how far both had travelled [m].
+    double clearance = 0;
+    double travelled_a = 0, travelled_b = 0;
   };
   void examine_up_to(double newest);
   void place_at(double t);
+  void place(model::RobotIndex robot, const model::Joints& q);
+  bool measure_pair(double t, PairClearance& pair, PairState& state);
   void measure(double t);
 
   const model::Cell& cell_;

@@ -81,7 +81,8 @@ class World {
         observer_(*cell_, options.check_period, std::numeric_limits<double>::infinity()),
         collector_(Instant{}),
         releases_(releases_of(program)),
-        total_(releases_.size()) {
+        total_(releases_.size()),
+        postures_(cell_->robots.size()) {
     for (const model::Robot& robot : cell_->robots) robots_.push_back(std::make_unique<VirtualRobot>(robot, options.seed + robots_.size()));
   }
 
@@ -97,10 +98,12 @@ class World {
     }
     watch_until(now_ + model::from_seconds(options_.trace_period));
     app::RunReport report = collector_.finish(options_.strategy);
-    report.collisions = observer_.contacts();
+    if (options_.observe) report.collisions = observer_.contacts();
     if (const auto least = observer_.least()) report.least_clearance = least->least;
     if (options_.stopwatch) {
-      report.map_build = app::statistics_of(planner_.maps().take_build_times());
+      auto builds = planner_.maps().take_build_times();
+      if (options_.on_map_builds) options_.on_map_builds(builds);
+      report.map_build = app::statistics_of(std::move(builds));
       report.decision = app::statistics_of(std::move(decision_times_));
     }
     return report;
@@ -179,7 +182,10 @@ class World {
     const double before = options_.stopwatch ? options_.stopwatch() : 0;
     core::Decisions d = call();
     if (options_.stopwatch) decision_times_.push_back(options_.stopwatch() - before);
-    for (const auto& s : d.statuses) collector_.on_status(s);
+    for (const auto& s : d.statuses) {
+      collector_.on_status(s);
+      if (options_.on_status) options_.on_status(s);
+    }
     for (auto& x : d.withdrawals) mail_.emplace_back(std::move(x));
     for (auto& x : d.dispatches) mail_.emplace_back(std::move(x));
   }
@@ -211,8 +217,10 @@ class World {
     const double end = model::to_seconds(until);
     for (; checked_ * options_.check_period < end; ++checked_) {
       const double t = checked_ * options_.check_period;
-      for (std::size_t i = 0; i < robots_.size(); ++i)
-        observer_.on_posture(i, t, robots_[i]->controller.observe(local(model::at_seconds(t))).joints);
+      for (std::size_t i = 0; i < robots_.size(); ++i) postures_[i] = robots_[i]->controller.joints(local(model::at_seconds(t)));
+      if (options_.on_postures) options_.on_postures(t, postures_);
+      if (!options_.observe) continue;
+      for (std::size_t i = 0; i < robots_.size(); ++i) observer_.on_posture(i, t, postures_[i]);
     }
     if (!options_.trace) return;
     for (; traced_ * options_.trace_period < end; ++traced_) {
@@ -233,6 +241,7 @@ class World {
   std::map<std::size_t, std::string> ids_;  // command each robot was last started with
   std::deque<Release> releases_;
   std::size_t total_;
+  std::vector<model::Joints> postures_;  // at the last check
   std::deque<Message> mail_;
   std::vector<double> decision_times_;
   Instant now_{};

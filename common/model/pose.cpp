@@ -9,6 +9,14 @@ Quaternion rotation_from_rpy(const Vector3& rpy) {
                     Eigen::AngleAxisd{rpy.x(), Vector3::UnitX()}};
 }
 
+Vector3 rpy_of(const Eigen::Matrix3d& R) {
+  constexpr double kUpright = 1e-9;  // cosine of the pitch below which roll and yaw turn about the same axis
+  const double cosine = std::hypot(R(0, 0), R(1, 0));
+  const double pitch = std::atan2(-R(2, 0), cosine);
+  if (cosine < kUpright) return {0, pitch, std::atan2(-R(0, 1), R(1, 1))};
+  return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
+}
+
 Pose make_pose(const Vector3& p, const Quaternion& q) {
   Pose X = Pose::Identity();
   X.linear() = q.normalized().toRotationMatrix();

@@ -17,6 +17,9 @@ inline constexpr double kPi = 3.14159265358979323846;
 /// Rotation of URDF rpy angles [rad]: R = Rz(yaw) · Ry(pitch) · Rx(roll).
 [[nodiscard]] Quaternion rotation_from_rpy(const Vector3& rpy);
 
+/// The angles [rad] that rotation_from_rpy makes `R` of; pitch within ±π/2, roll 0 where pitch is there and only their sum counts.
+[[nodiscard]] Vector3 rpy_of(const Eigen::Matrix3d& R);
+
 /// Pose from a translation [m] and a rotation.
 [[nodiscard]] Pose make_pose(const Vector3& p, const Quaternion& q);
 

@@ -73,11 +73,15 @@ DriverResult SimController::stop(LocalTime now) {
   return {};
 }
 
+Joints SimController::joints(LocalTime now) const {
+  if (frozen_) return *frozen_;
+  return run_ ? run_->motion.joints(path_time(*run_, now)) : standing_;
+}
+
 ControllerState SimController::observe(LocalTime now) const {
   ControllerState state;
   state.at = now;
-  state.joints = run_ ? run_->motion.joints(path_time(*run_, now)) : standing_;
-  if (frozen_) state.joints = *frozen_;
+  state.joints = joints(now);
   state.X_WT = robot_->X_WB * model::tcp_pose(robot_->model, state.joints);
   state.fault = fault_;
   if (run_) {

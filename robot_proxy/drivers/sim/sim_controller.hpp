@@ -38,6 +38,9 @@ class SimController {
 
   [[nodiscard]] ControllerState observe(LocalTime now) const;
 
+  /// The joints of `observe` [rad] alone, for those who ask every millisecond.
+  [[nodiscard]] model::Joints joints(LocalTime now) const;
+
   /// First change of phase after `now`: begin, end or fault of the motion. Empty when none will come by itself.
   [[nodiscard]] std::optional<LocalTime> next_event(LocalTime now) const;
 

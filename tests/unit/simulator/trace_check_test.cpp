@@ -1,0 +1,135 @@
+#include "simulator/trace_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/model/segment_distance.hpp"
+#include "monitor/clearance_observer.hpp"
+#include "tests/support/arms.hpp"
+#include "tests/support/motions.hpp"
+#include "tests/unit/simulator/cells.hpp"
+
+namespace interlace::sim {
+namespace {
+
+using model::Joints;
+using Trace = std::vector<std::vector<Joints>>;
+
+constexpr double kStep = 0.001;  // [s]
+
+/// Robots that go from one random posture to the next in small steps, some of them standing in between.
+Trace wander(test::Seed& seed, const model::Cell& cell, std::size_t legs) {
+  Trace trace;
+  std::vector<Joints> now;
+  for (const auto& robot : cell.robots) now.push_back(robot.start);
+  // The observer's first step has only the robots it heard of until then, and its own clock may lag a step behind at the end.
+  trace.resize(2, now);
+  for (std::size_t leg = 0; leg < legs; ++leg) {
+    std::vector<Joints> next = now;
+    for (auto& q : next) {
+      if (seed.chance(0.3)) continue;
+      for (double& angle : q) angle += seed.uniform(-1, 1);
+    }
+    const int steps = 200;
+    for (int k = 1; k <= steps; ++k) {
+      auto& row = trace.emplace_back(now);
+      for (std::size_t i = 0; i < row.size(); ++i) row[i] += k / static_cast<double>(steps) * (next[i] - now[i]);
+    }
+    now = next;
+  }
+  trace.resize(trace.size() + 2, now);
+  return trace;
+}
+
+struct Judged {
+  double least = 1e9;
+  std::size_t collisions = 0;
+};
+
+/// Every pair measured at every step.
+Judged measured_throughout(const model::Cell& cell, const Trace& trace) {
+  Judged judged;
+  std::vector<std::vector<model::Capsule>> bodies(cell.robots.size());
+  std::vector<bool> touching(cell.robots.size() * cell.robots.size());
+  for (const auto& row : trace) {
+    for (std::size_t i = 0; i < row.size(); ++i) model::place_capsules(cell.robots[i].model, cell.robots[i].X_WB, row[i], bodies[i]);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      for (std::size_t j = i + 1; j < row.size(); ++j) {
+        double least = 1e9;
+        for (const auto& a : bodies[i]) {
+          for (const auto& b : bodies[j]) least = std::min(least, model::segment_distance(a.a, a.b, b.a, b.b) - a.radius - b.radius);
+        }
+        auto was = touching[i * row.size() + j];
+        if (least <= 0 && !was) ++judged.collisions;
+        touching[i * row.size() + j] = least <= 0;
+        judged.least = std::min(judged.least, least);
+      }
+    }
+  }
+  return judged;
+}
+
+void expect_agreement(const model::Cell& cell, const Trace& trace) {
+  TraceCheck check{cell};
+  monitor::ClearanceObserver observer{cell, kStep, 1e9};
+  for (std::size_t k = 0; k < trace.size(); ++k) {
+    const double t = kStep * static_cast<double>(k);
+    check.step(t, trace[k]);
+    for (std::size_t i = 0; i < trace[k].size(); ++i) observer.on_posture(i, t, trace[k][i]);
+  }
+  const Judged truth = measured_throughout(cell, trace);
+  const double tolerance = 1e-9;  // [m] rounding of two ways to compute one distance
+  EXPECT_NEAR(check.least().clearance, truth.least, tolerance);
+  EXPECT_EQ(check.collisions(), truth.collisions);
+  ASSERT_TRUE(observer.least());
+  EXPECT_NEAR(observer.least()->least, truth.least, 1e-6);  // its postures are interpolated, and a step's time is a sum
+  EXPECT_EQ(observer.contacts(), truth.collisions);
+  EXPECT_EQ(check.steps(), trace.size());
+  const std::size_t pairs = trace.front().size() * (trace.front().size() - 1) / 2;
+  EXPECT_LT(check.measured(), pairs * trace.size()) << "no work was left out";
+}
+
+TEST(TraceCheck, LeavesOutNothingThatMatters) {
+  test::Seed seed{31};
+  for (const char* name : {"exp-4-2", "exp-6-1", "pattern-square-4", "pattern-ring-5", "pattern-serial-8"}) {
+    SCOPED_TRACE(name);
+    const auto cell = test::deployed_cell(name);
+    for (std::size_t k = 0; k < test::scaled(5); ++k) expect_agreement(*cell, wander(seed, *cell, 10));
+  }
+}
+
+TEST(TraceCheck, LeavesOutNothingThatMattersForArmsOfAnyKind) {
+  test::Seed seed{32};
+  for (std::size_t k = 0; k < test::scaled(40); ++k) {
+    model::Cell cell;
+    for (int i = 0; i < 3; ++i) {
+      const auto arm = seed.chance(0.2) ? test::offset_arm() : test::random_arm(seed);
+      cell.robots.push_back(test::robot_at("r" + std::to_string(i), arm, {1.2 * i, seed.uniform(-0.5, 0.5), 0}, seed.uniform(-3, 3)));
+      cell.robots.back().start = test::random_joints(seed, arm);
+    }
+    expect_agreement(cell, wander(seed, cell, 10));
+  }
+}
+
+TEST(TraceCheck, FindsAPlantedCollision) {
+  const auto cell = test::deployed_cell("exp-4-2");
+  Trace trace(100, {cell->robots[0].start, cell->robots[1].start});
+  // For one millisecond both hands are where r1 and r2 meet.
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& robot = cell->robots[i];
+    trace[50][i] = model::preferred_posture(robot.model, robot.X_WB.inverse() * test::pose_mm(350, 0, 200)).value();
+  }
+  TraceCheck check{*cell};
+  for (std::size_t k = 0; k < 50; ++k) check.step(kStep * static_cast<double>(k), trace[k]);
+  EXPECT_EQ(check.collisions(), 0U);
+  EXPECT_GT(check.least().clearance, 0);
+  for (std::size_t k = 50; k < 100; ++k) check.step(kStep * static_cast<double>(k), trace[k]);
+  EXPECT_EQ(check.collisions(), 1U);
+  EXPECT_DOUBLE_EQ(check.least().t, 0.050);
+  EXPECT_NEAR(check.least().clearance, -0.200, 1e-6) << "the forearms' axes meet: both radii deep";
+  EXPECT_EQ(check.least().link_a, "link2");
+  EXPECT_EQ(check.least().link_b, "link2");
+  EXPECT_LE(check.measured(), 4U) << "standing robots are not measured again";
+}
+
+}  // namespace
+}  // namespace interlace::sim
