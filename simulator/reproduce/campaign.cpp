@@ -49,6 +49,14 @@ CampaignRow row_of(const json& object, const std::string& cell) {
   return row;
 }
 
+/// Keys that group rows without naming a cell.
+bool is_plain_heading(const std::string& key) {
+  for (const char* heading : {"campaign", "cells", "patterns", "results", "rows", "runs", "strategies"}) {
+    if (key == heading) return true;
+  }
+  return false;
+}
+
 void collect(const json& node, const std::string& cell, std::vector<CampaignRow>& rows) {
   if (node.is_array()) {
     for (const json& item : node) collect(item, cell, rows);
@@ -59,8 +67,7 @@ void collect(const json& node, const std::string& cell, std::vector<CampaignRow>
       rows.push_back(row_of(node, here));
       return;
     }
-    const bool named = node.contains("cell") || node.contains("pattern");
-    for (const auto& [key, item] : node.items()) collect(item, named || item.is_array() ? here : key, rows);
+    for (const auto& [key, item] : node.items()) collect(item, here.empty() && !is_plain_heading(key) ? key : here, rows);
   }
 }
 

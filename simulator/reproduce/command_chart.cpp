@@ -11,7 +11,7 @@ namespace interlace::reproduce {
 
 namespace {
 
-constexpr double kWidth = 1060, kLeft = 44, kRight = 16, kTop = 58, kRow = 46, kBox = 28, kBottom = 44;
+constexpr double kWidth = 1060, kLeft = 44, kRight = 16, kTop = 58, kRow = 50, kBox = 28, kBottom = 44;
 constexpr double kShown = 0.02;   // shorter waits are no more than a line [s]
 constexpr double kLetter = 0.62;  // width of a digit or capital by its height
 
@@ -51,10 +51,10 @@ class Chart {
     Style command{robot_colour(0), kInk};
     svg_.rect(kLeft, y, 26, 14, command);
     svg_.text({kLeft + 32, y + 11}, "command (colour: robot)");
-    svg_.rect(kLeft + 190, y + 3, 26, 8, waiting("legend"));
-    svg_.text({kLeft + 222, y + 11}, "waits for others");
-    svg_.rect(kLeft + 340, y, 26, 14, {"#000000", "#000000"});
-    svg_.text({kLeft + 372, y + 11}, "escape");
+    svg_.rect(kLeft + 215, y + 3, 26, 8, waiting("legend"));
+    svg_.text({kLeft + 247, y + 11}, "waits for others");
+    svg_.rect(kLeft + 385, y, 26, 14, {"#000000", "#000000"});
+    svg_.text({kLeft + 417, y + 11}, "escape");
   }
 
   static Style waiting(const std::string& name) {

@@ -63,9 +63,9 @@ std::string finish_notes(const ExperimentRun* first, const ExperimentRun* second
   }
   if (report_of(any, "zone")) {
     text +=
-        "- `zone` finds its shared zone by itself, from where the arms' reaches overlap; the zone that gave 40.7 s was drawn by hand and "
-        "its "
-        "borders are not published, so the times need not agree.\n";
+        "- `zone` finds its shared zone by itself, from where the arms' reaches overlap; the dissertation does not say where the borders "
+        "of the "
+        "zone lay that gave 40.7 s, so the times need not agree.\n";
   }
   if (report_of(any, "acm")) {
     text +=
@@ -75,11 +75,12 @@ std::string finish_notes(const ExperimentRun* first, const ExperimentRun* second
   }
   if (const auto* event = report_of(any, "event")) {
     text += fmt::format(
-        "- `event` lets whichever robot can start first start, and holds no robot up because another one is stuck: {:.2f} s, {} needed.\n",
-        event->makespan, counted(event->escapes, "escape"));
+        "- `event` lets whichever robot can start first start, and holds no robot up because another one is stuck: {:.2f} s in experiment "
+        "{}, {} needed.\n",
+        event->makespan, any->experiment.number, counted(event->escapes, "escape"));
   }
   if (report_of(any, "eef-map")) {
-    text += "- `eef-map` sees the end-effectors only. A short time with collisions is no achievement.\n";
+    text += "- `eef-map` sees the end-effectors only. Where it collided, its time does not compare with the others.\n";
   }
   text +=
       "- Experiments 4.2 and 5.2 have the same commands; their 33.1 s and 36.2 s differ by the escapes of the second, which resolved two "

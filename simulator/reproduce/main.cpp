@@ -132,6 +132,7 @@ ExitCode run(const Arguments& a) {
   if (!files::is_directory(a.cells)) throw BadInput{a.cells + ": there is no such folder; --cells names the one that holds exp-4-2"};
 
   reproduce::Results results;
+  if (!a.only.empty()) results.skipped.push_back(fmt::format("Everything but {}: only that was asked for (`--only`).", a.only));
   if (!a.campaign.empty()) {
     auto rows = reproduce::load_campaign(a.campaign);
     if (!rows) throw BadInput{rows.error()};

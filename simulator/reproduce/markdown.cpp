@@ -19,11 +19,21 @@ std::string line(const std::vector<std::string>& cells) {
   return text + '\n';
 }
 
+/// Whether all cells of a column hold numbers, or that there is none.
+bool is_numeric(const std::vector<std::vector<std::string>>& rows, std::size_t column) {
+  for (const auto& row : rows) {
+    const std::string& cell = row[column];
+    const bool digit = !cell.empty() && ((cell[0] >= '0' && cell[0] <= '9') || cell[0] == '-');
+    if (!digit && cell != "–" && cell != "not run") return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string markdown_table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
   std::string text = line(header) + "|";
-  for (std::size_t i = 0; i < header.size(); ++i) text += i == 0 ? "---|" : "---:|";
+  for (std::size_t i = 0; i < header.size(); ++i) text += is_numeric(rows, i) ? "---:|" : "---|";
   text += '\n';
   for (const auto& row : rows) text += line(row);
   return text;

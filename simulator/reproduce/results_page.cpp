@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
+#include "planner/core/strategy.hpp"
 #include "simulator/reproduce/command_chart.hpp"
 #include "simulator/reproduce/distance_curves.hpp"
 #include "simulator/reproduce/experiment_tables.hpp"
 #include "simulator/reproduce/map_picture.hpp"
+#include "simulator/reproduce/markdown.hpp"
 
 namespace interlace::reproduce {
 
@@ -19,10 +22,26 @@ constexpr const char* kAfter = "event";
 std::string chart_title(const ExperimentRun& run, const app::RunReport& r) {
   std::string title = fmt::format("Experiment {}, {}: {} of {} commands in {:.2f} s", run.experiment.number, r.strategy, r.completed,
                                   r.submitted, r.makespan);
-  if (r.escapes > 0) title += fmt::format(", {} escapes", r.escapes);
+  if (r.escapes > 0) title += ", " + counted(r.escapes, "escape");
   if (r.least_clearance) title += fmt::format(", least clearance {:.1f} mm", 1000 * *r.least_clearance);
-  if (r.collisions.value_or(0) > 0) title += fmt::format(", {} collisions", *r.collisions);
+  if (r.collisions.value_or(0) > 0) title += ", " + counted(*r.collisions, "collision");
   return title;
+}
+
+std::string strategy_table() {
+  static const std::map<std::string_view, const char*> meanings{
+      {"direct", "no planner: every command starts as soon as its robot is free"},
+      {"zone", "one robot at a time in the shared zone"},
+      {"eef-map", "a collision map of the end-effectors only"},
+      {"acm", "the dissertation's method as written"},
+      {"event", "the default: the earliest start that is clear of everything committed"},
+      {"lookahead", "as `event`, with regard to the commands that already wait in the queues"}};
+  std::vector<std::vector<std::string>> rows;
+  for (const auto name : core::strategy_names()) {
+    const auto found = meanings.find(name);
+    rows.push_back({fmt::format("`{}`", name), found == meanings.end() ? "–" : found->second});
+  }
+  return markdown_table({"strategy", "what it does"}, rows);
 }
 
 std::string image(const std::string& words, const Picture& picture) {
@@ -133,7 +152,7 @@ std::vector<Picture> pictures(const ExperimentRun& run) {
   if (after) {
     if (const auto subject = first_delayed(run.input, *after, named)) {
       all.push_back({folder + "-map.svg", map_picture(fmt::format("Experiment {}: collision map of {} against {}", run.experiment.number,
-                                                                  subject->commanded, subject->moving),
+                                                                  subject->label, subject->moving.front().label),
                                                       *subject, collision_areas(*subject, run.input.cell->planning))});
     }
   }
@@ -144,23 +163,22 @@ std::string results_page(const Results& results, const std::vector<std::vector<P
   std::string text =
       "# Results\n\n"
       "The experiments of A. Y. Afaghani's dissertation on the advanced collision map, run again in virtual time with every strategy. "
-      "`docs/reproduce` writes this page and its pictures; do not edit them.\n\n"
-      "| strategy | what it does |\n|---|---|\n"
-      "| `direct` | no planner: every command starts as soon as its robot is free |\n"
-      "| `zone` | one robot at a time in the shared zone |\n"
-      "| `eef-map` | a collision map of the end-effectors only |\n"
-      "| `acm` | the dissertation's method as written |\n"
-      "| `event` | the default: the earliest start that is clear of everything committed |\n\n"
-      "Times run from the first start to the last end. Collisions (how often one began) and the least clearance are judged from the "
-      "simulated "
-      "controllers' postures every millisecond, by code that shares nothing with the planner; a negative clearance is how deep bodies "
-      "overlap.\n\n";
+      "`docs/reproduce` writes this page and its pictures; do not edit them.\n\n";
+  text += strategy_table() +
+          "\nTimes run from the first start to the last end. Collisions (how often one began) and the least clearance are judged from the "
+          "simulated "
+          "controllers' postures every millisecond, by code that shares nothing with the planner; a negative clearance is how deep bodies "
+          "overlap.\n\n";
   if (!results.skipped.empty()) {
     text += "Not run:\n\n";
     for (const std::string& s : results.skipped) text += "- " + s + "\n";
     text += "\n";
   }
-  text += "## Tables 4.7 and 5.7: time to finish experiment 2\n\n" + finish_time_table(results.experiments) + "\n## Experiments\n\n";
+  const bool finish_times = std::any_of(results.experiments.begin(), results.experiments.end(), [](const ExperimentRun& r) {
+    return r.experiment.number == "4.2" || r.experiment.number == "5.2";
+  });
+  if (finish_times) text += "## Tables 4.7 and 5.7: time to finish experiment 2\n\n" + finish_time_table(results.experiments) + "\n";
+  if (!results.experiments.empty()) text += "## Experiments\n\n";
   for (std::size_t i = 0; i < results.experiments.size(); ++i) text += experiment_section(results.experiments[i], pictures_of[i]);
   return text + pattern_section(results) + campaign_section(results);
 }

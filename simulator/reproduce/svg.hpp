@@ -14,7 +14,7 @@ struct Point {
 /// How a shape looks. `name` becomes its class: for tests and for style sheets of whoever embeds the picture.
 struct Style {
   std::string fill = "none", stroke = "none";
-  double width = 1;  ///< of the stroke [px]
+  double width = 1;    ///< of the stroke [px]
   std::string dash{};  ///< pattern such as "4 3"; empty: solid
   std::string name{};
 };
