@@ -63,9 +63,9 @@ std::string finish_notes(const ExperimentRun* first, const ExperimentRun* second
   }
   if (report_of(any, "zone")) {
     text +=
-        "- `zone` finds its shared zone by itself, from where the arms' reaches overlap; the dissertation does not say where the borders "
-        "of the "
-        "zone lay that gave 40.7 s, so the times need not agree.\n";
+        "- `zone` works its shared zone out from where the arms' reaches overlap unless the cell file gives one; the dissertation does not "
+        "say "
+        "where the borders of the zone lay that gave 40.7 s, so the times need not agree.\n";
   }
   if (report_of(any, "acm")) {
     text +=

@@ -20,7 +20,8 @@ namespace {
 constexpr const char* kPatterns = "patterns";
 
 struct Arguments {
-  std::string cells = "deploy/cells", output = "docs", only, campaign;
+  std::string cells = "deploy/cells", output = "docs", only;
+  std::vector<std::string> campaigns;
 };
 
 /// A file that is not as it should be.
@@ -39,7 +40,8 @@ std::optional<ExitCode> parse(int argc, char** argv, Arguments& a) {
   cli.add_option("--cells", a.cells, "folder of the cells")->capture_default_str();
   cli.add_option("--output", a.output, "folder for results.md and results/")->capture_default_str();
   cli.add_option("--only", a.only, "one experiment (4.1 or exp-4-1 … 6.2), or patterns: the programs of table 6.3");
-  cli.add_option("--campaign", a.campaign, "report of interlace-campaign (JSON) to show and to count local minima from");
+  cli.add_option("--campaign", a.campaigns,
+                 "report of interlace-campaign (JSON) to show and to count local minima from; may be given again");
   app::add_common(cli);
   return app::parse(cli, argc, argv);
 }
@@ -62,7 +64,9 @@ std::optional<reproduce::Case> find_case(const files::path& cell, const files::p
   for (const files::path& file : {cell, program}) {
     if (files::exists(file)) continue;
     const auto folder = file.parent_path().filename();
-    skipped.push_back(fmt::format("{}: there is no `{}` in the folder of cells.", what, (folder / file.filename()).string()));
+    const std::string message = fmt::format("{}: there is no `{}` in the folder of cells.", what, (folder / file.filename()).string());
+    if (std::find(skipped.begin(), skipped.end(), message) != skipped.end()) return std::nullopt;  // said already
+    skipped.push_back(message);
     fmt::print(stderr, "{}: skipped, there is no {}\n", what, file.string());
     return std::nullopt;
   }
@@ -97,7 +101,8 @@ void run_patterns(const Arguments& a, reproduce::Results& results) {
   for (const auto& experiment : reproduce::pattern_experiments()) {
     const files::path folder = files::path{a.cells} / experiment.folder;
     const std::string what = fmt::format("{}, program {}", experiment.folder, experiment.number);
-    const auto input = find_case(folder / "cell.yaml", folder / fmt::format("program-{}.yaml", experiment.number), what, results.skipped);
+    const auto input =
+        find_case(folder / "cell.yaml", folder / fmt::format("program-{}.yaml", experiment.number), experiment.folder, results.skipped);
     if (!input) continue;
     for (const char* strategy : {"acm", "event"}) {
       const auto& known = core::strategy_names();
@@ -133,10 +138,10 @@ ExitCode run(const Arguments& a) {
 
   reproduce::Results results;
   if (!a.only.empty()) results.skipped.push_back(fmt::format("Everything but {}: only that was asked for (`--only`).", a.only));
-  if (!a.campaign.empty()) {
-    auto rows = reproduce::load_campaign(a.campaign);
-    if (!rows) throw BadInput{rows.error()};
-    results.campaign = std::move(*rows);
+  for (const std::string& file : a.campaigns) {
+    auto campaign = reproduce::load_campaign(file);
+    if (!campaign) throw BadInput{campaign.error()};
+    results.campaigns.push_back(std::move(*campaign));
   }
   run_experiments(a, results);
   run_patterns(a, results);

@@ -60,14 +60,16 @@ Tally tally(const std::vector<PatternRun>& runs, const std::string& folder, cons
   return t;
 }
 
-Tally tally(const std::vector<CampaignRow>& rows, const std::string& folder, const std::string& strategy) {
+Tally tally(const std::vector<Campaign>& campaigns, const std::string& folder, const std::string& strategy) {
   Tally t;
-  for (const CampaignRow& r : rows) {
-    const bool same_cell = r.cell == folder || "pattern-" + r.cell == folder;
-    if (!same_cell || r.strategy != strategy || !r.warnings) continue;
-    t.known = true;
-    t.warnings += *r.warnings;
-    t.commands += r.commands.value_or(0);
+  for (const Campaign& campaign : campaigns) {
+    for (const CampaignRow& r : campaign.rows) {
+      const bool same_cell = r.cell == folder || "pattern-" + r.cell == folder;
+      if (!same_cell || r.strategy != strategy || !r.warnings) continue;
+      t.known = true;
+      t.warnings += *r.warnings;
+      t.commands += r.commands.value_or(0);
+    }
   }
   return t;
 }
@@ -128,12 +130,12 @@ std::string pattern_outcome_table(const std::vector<PatternRun>& runs) {
                         rows);
 }
 
-std::string local_minima_table(const std::vector<PatternRun>& runs, const std::vector<CampaignRow>& campaign) {
+std::string local_minima_table(const std::vector<PatternRun>& runs, const std::vector<Campaign>& campaigns) {
   std::vector<std::vector<std::string>> rows;
   for (const LocalMinima& m : kLocalMinima) {
     std::vector<std::string> row{fmt::format("{}", m.robots), m.pattern, m.theirs};
     for (const char* strategy : {"acm", "event"}) {
-      const Tally theirs = tally(campaign, m.folder, strategy);
+      const Tally theirs = tally(campaigns, m.folder, strategy);
       row.push_back(shown(theirs.known ? theirs : tally(runs, m.folder, strategy)));
     }
     rows.push_back(std::move(row));

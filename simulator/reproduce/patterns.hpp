@@ -30,7 +30,7 @@ struct PatternRun {
 /// How the fifteen programs went, per strategy. Markdown.
 [[nodiscard]] std::string pattern_outcome_table(const std::vector<PatternRun>& runs);
 
-/// Table 6.4: local minima per pattern as warnings, of the campaign when it has rows for that pattern, else of `runs`. Markdown.
-[[nodiscard]] std::string local_minima_table(const std::vector<PatternRun>& runs, const std::vector<CampaignRow>& campaign);
+/// Table 6.4: local minima per pattern as warnings, of the campaigns when they have rows for that pattern, else of `runs`. Markdown.
+[[nodiscard]] std::string local_minima_table(const std::vector<PatternRun>& runs, const std::vector<Campaign>& campaigns);
 
 }  // namespace interlace::reproduce

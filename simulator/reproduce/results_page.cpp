@@ -105,11 +105,11 @@ std::string pattern_section(const Results& results) {
         "How the same programs went, in virtual time:\n\n" +
         pattern_outcome_table(results.patterns) + "\n";
   }
-  if (results.patterns.empty() && !results.campaign) return text;
-  text +=
-      fmt::format("Local minima (table 6.4), counted as warnings: a deadlock that no escape resolved. Counts are from {}.\n\n",
-                  results.campaign ? "the campaign below where it has the pattern, else from the programs above" : "the programs above");
-  text += local_minima_table(results.patterns, results.campaign.value_or(std::vector<CampaignRow>{}));
+  if (results.patterns.empty() && results.campaigns.empty()) return text;
+  text += fmt::format(
+      "Local minima (table 6.4), counted as warnings: a deadlock that no escape resolved. Counts are from {}.\n\n",
+      results.campaigns.empty() ? "the programs above" : "the campaigns below where they have the pattern, else from the programs above");
+  text += local_minima_table(results.patterns, results.campaigns);
   text +=
       "\n- The dissertation gives words instead of counts, and not how many experiments they stand for.\n"
       "- A warning is no end here: the command stays queued and is tried again at each change, so one that was warned of may still be "
@@ -119,13 +119,15 @@ std::string pattern_section(const Results& results) {
 
 std::string campaign_section(const Results& results) {
   std::string text = "## Campaign\n\n";
-  if (!results.campaign) {
+  if (results.campaigns.empty()) {
     return text +
            "Not shown: `interlace-campaign` makes it (`interlace-campaign --help`), and `docs/reproduce --campaign FILE` puts its report "
            "here.\n";
   }
-  return text + "Made by `interlace-campaign`, whose report was given with `docs/reproduce --campaign FILE`.\n\n" +
-         campaign_table(*results.campaign) + "\nReal time is what the campaign's report says it took when it was made.\n";
+  text += "Random programs on the patterns, judged in virtual time. Real time is what a campaign says it took when it was made.\n\n";
+  for (const Campaign& campaign : results.campaigns)
+    text += campaign_table(campaign) + "\nMade by\n\n```sh\n" + campaign_command(campaign) + "\n```\n\n";
+  return text + "and shown here by `docs/reproduce --campaign FILE`, once for each report.\n";
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,7 @@ struct Results {
   std::vector<ExperimentRun> experiments;
   std::vector<PatternRun> patterns;
   std::vector<std::string> skipped;  ///< what was not run, and why; one sentence each
-  std::optional<std::vector<CampaignRow>> campaign;
+  std::vector<Campaign> campaigns;
 };
 
 /// A picture and the name of its file.

@@ -75,7 +75,7 @@ TEST(LocalMinima, ComeFromTheCampaignWhereItHasThePattern) {
   row.strategy = "acm";
   row.warnings = 12;
   row.commands = 1000;
-  const std::string text = local_minima_table({run}, {row});
+  const std::string text = local_minima_table({run}, {Campaign{"c.json", {}, {row}}});
   EXPECT_NE(text.find("| 3 | triangle | few | not run | 1 in 8 commands |"), std::string::npos) << text;
   EXPECT_NE(text.find("| 4 | zigzag | high | 12 in 1000 commands | not run |"), std::string::npos) << text;
 }
