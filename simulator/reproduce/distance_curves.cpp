@@ -187,9 +187,10 @@ std::string distance_picture(const std::string& title, const model::Cell& cell, 
   svg.text({left, 20}, title, heading);
   draw_legend(svg, left, runs, links ? "prohibited distance (sum of the radii)" : "contact");
   for (std::size_t k = 0; k < panels.size(); ++k) {
+    const std::size_t row = k / columns;
     Axes axes;
     axes.left = left + (width + gap) * static_cast<double>(k % columns);
-    axes.top = top + pitch * static_cast<double>(k / columns);
+    axes.top = top + pitch * static_cast<double>(row);
     axes.width = width;
     axes.height = height;
     axes.x1 = longest;

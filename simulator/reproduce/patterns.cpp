@@ -39,14 +39,17 @@ const app::RunReport* find(const std::vector<PatternRun>& runs, const PatternExp
   return nullptr;
 }
 
-/// Warnings and commands of a pattern under a strategy, added up.
+/// Warnings, commands and those never done of a pattern under a strategy, added up.
 struct Tally {
   bool known = false;
-  double warnings = 0, commands = 0;
+  double warnings = 0, commands = 0, left = 0;
 };
 
 std::string shown(const Tally& t) {
-  return t.known ? fmt::format("{:.0f} in {:.0f} commands", t.warnings, t.commands) : "not run";
+  if (!t.known) return "not run";
+  std::string text = fmt::format("{:.0f} in {:.0f} commands", t.warnings, t.commands);
+  if (t.left > 0) text += fmt::format(", {:.0f} never done", t.left);
+  return text;
 }
 
 Tally tally(const std::vector<PatternRun>& runs, const std::string& folder, const std::string& strategy) {
@@ -56,6 +59,7 @@ Tally tally(const std::vector<PatternRun>& runs, const std::string& folder, cons
     t.known = true;
     t.warnings += static_cast<double>(r.report.warnings);
     t.commands += static_cast<double>(r.report.submitted);
+    t.left += static_cast<double>(r.report.submitted - r.report.completed - r.report.rejected);
   }
   return t;
 }
@@ -69,6 +73,7 @@ Tally tally(const std::vector<Campaign>& campaigns, const std::string& folder, c
       t.known = true;
       t.warnings += *r.warnings;
       t.commands += r.commands.value_or(0);
+      t.left += r.unserved.value_or(0);
     }
   }
   return t;

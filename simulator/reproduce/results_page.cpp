@@ -113,7 +113,7 @@ std::string pattern_section(const Results& results) {
   text +=
       "\n- The dissertation gives words instead of counts, and not how many experiments they stand for.\n"
       "- A warning is no end here: the command stays queued and is tried again at each change, so one that was warned of may still be "
-      "completed.\n\n";
+      "completed. Commands never done are told beside.\n\n";
   return text;
 }
 
