@@ -114,8 +114,9 @@ std::string outcome_notes(const std::vector<StrategyRun>& runs) {
                                                   : "this must not happen and is a fault";
       text += fmt::format("- `{}`: {}; {}.\n", r.strategy, counted(collisions, "collision"), why);
     } else if (r.strategy == "eef-map" && r.least_clearance) {
-      text += fmt::format("- `eef-map`: no collisions here; bodies it does not look at happened to stay {:.0f} mm apart.\n",
-                          1000 * *r.least_clearance);
+      text += fmt::format(
+          "- `eef-map`: no collisions here; the bodies it does not look at happened to stay clear, the nearest of all at {:.0f} mm.\n",
+          1000 * *r.least_clearance);
     }
     if (r.completed + r.rejected < r.submitted) {
       text += fmt::format("- `{}`: {} never done; its time is that of the others.\n", r.strategy,
