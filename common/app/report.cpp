@@ -20,6 +20,7 @@ DurationStatistics statistics_of(std::vector<double> seconds) {
     return 1e3 * seconds[static_cast<std::size_t>(std::lround(q * static_cast<double>(seconds.size() - 1)))];
   };
   s.mean = 1e3 * std::accumulate(seconds.begin(), seconds.end(), 0.0) / static_cast<double>(seconds.size());
+  s.min = 1e3 * seconds.front();
   s.p50 = quantile(0.5);
   s.p99 = quantile(0.99);
   s.max = 1e3 * seconds.back();

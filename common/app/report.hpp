@@ -11,10 +11,10 @@
 
 namespace interlace::app {
 
-/// Count, mean, median, 99th percentile and largest of a set of durations.
+/// Count, mean, least, median, 99th percentile and largest of a set of durations.
 struct DurationStatistics {
   std::size_t count = 0;
-  double mean = 0, p50 = 0, p99 = 0, max = 0;  ///< [ms]
+  double mean = 0, min = 0, p50 = 0, p99 = 0, max = 0;  ///< [ms]
 };
 
 /// Statistics of durations given in seconds.
