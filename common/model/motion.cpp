@@ -36,8 +36,9 @@ Motion Motion::rest(const Robot& robot, const Joints& q) {
 
 Pose Motion::tcp_in_base(const Line& line, double t) const {
   const double along = line.translation.distance() > 0 ? line.translation.at(t) / line.translation.distance() : 1.0;
-  const double turned = line.rotation.distance() > 0 ? line.rotation.at(t) / line.rotation.distance() : 1.0;
-  return make_pose(line.p_BT0 + along * (line.p_BT1 - line.p_BT0), line.q_BT0.slerp(turned, line.q_BT1));
+  const Vector3 p = line.p_BT0 + along * (line.p_BT1 - line.p_BT0);
+  if (line.rotation.distance() <= 0) return make_pose(p, line.q_BT1);
+  return make_pose(p, line.q_BT0.slerp(line.rotation.at(t) / line.rotation.distance(), line.q_BT1));
 }
 
 Joints Motion::between_knots(double t) const {
@@ -78,37 +79,47 @@ double Motion::length(double t) const {
   return lengths_[i] + (x - static_cast<double>(i)) * (lengths_[i + 1] - lengths_[i]);
 }
 
+LinkFrames Motion::frames(double t) const {
+  if (line_ && t > 0 && t < duration_) {
+    if (auto found = robot_->model.kinematics.frames(tcp_in_base(*line_, t) * robot_->model.X_FT.inverse(), line_->branch)) return *found;
+  }
+  return robot_->model.kinematics.forward(joints(t));
+}
+
 void Motion::displacement(double t0, double centre, double t1, std::vector<double>& out) const {
+  out.resize(robot_->model.capsules.size());
+  displacement(t0, centre, t1, frames(centre), out.data());
+}
+
+void Motion::displacement(double t0, double centre, double t1, const LinkFrames& at_centre, double* out) const {
   if (duration_ <= 0) {
-    out.assign(robot_->model.capsules.size(), 0.0);
+    std::fill_n(out, robot_->model.capsules.size(), 0.0);
   } else if (line_) {
-    line_displacement(*line_, t0, centre, t1, out);
+    line_displacement(*line_, t0, centre, t1, at_centre, out);
   } else {
-    joint_displacement(t0, centre, t1, out);
+    joint_displacement(t0, centre, t1, at_centre, out);
   }
 }
 
-void Motion::line_displacement(const Line& line, double t0, double centre, double t1, std::vector<double>& out) const {
+void Motion::line_displacement(const Line& line, double t0, double centre, double t1, const LinkFrames& at_centre, double* out) const {
   // The laws are monotone, so the ends of the interval are the farthest from its centre.
   HandSweep hand;
-  const Vector3 way = line.p_BT1 - line.p_BT0;
-  const Vector3 direction = line.translation.distance() > 0 ? Vector3{way.normalized()} : Vector3::Zero();
-  hand.tcp = {direction * (line.translation.at(t0) - line.translation.at(centre)),
-              direction * (line.translation.at(t1) - line.translation.at(centre))};
-  const Quaternion whole = line.q_BT1 * line.q_BT0.conjugate();
-  const Vector3 axis = whole.w() < 0 ? Vector3{-whole.vec()} : Vector3{whole.vec()};  // slerp takes the shorter way
-  if (axis.norm() > 0) hand.axis = axis.normalized();
-  hand.turn = {line.rotation.at(t0) - line.rotation.at(centre), line.rotation.at(t1) - line.rotation.at(centre)};
-  displacement_by_hand(robot_->model, line.branch, joints(centre), hand, out);
+  const double along = line.translation.at(centre);
+  const double turned = line.rotation.at(centre);
+  hand.direction = line.direction;
+  hand.axis = line.axis;
+  hand.way = {line.translation.at(t0) - along, line.translation.at(t1) - along};
+  hand.turn = {line.rotation.at(t0) - turned, line.rotation.at(t1) - turned};
+  displacement_by_hand(robot_->model, line.branch, at_centre, hand, out);
 }
 
-void Motion::joint_displacement(double t0, double centre, double t1, std::vector<double>& out) const {
+void Motion::joint_displacement(double t0, double centre, double t1, const LinkFrames& at_centre, double* out) const {
   JointSweep sweep;
   for (std::size_t i = 0; i < kJoints; ++i) {
     const TimeLaw& law = joint_laws_[i];
     sweep[i] = std::max(law.at(t1) - law.at(centre), law.at(centre) - law.at(t0));
   }
-  displacement_by_joints(robot_->model, joints(centre), sweep, out);
+  displacement_by_joints(robot_->model, at_centre, sweep, out);
 }
 
 namespace {
@@ -250,7 +261,12 @@ Result<Motion, MotionError> plan_motion(const Robot& robot, const Joints& from, 
     line.q_BT0 = rotation_of(X_BT0);
     line.q_BT1 = rotation_of(X_BT1);
     line.angle = angle_between(line.q_BT0, line.q_BT1);
-    const double length = (line.p_BT1 - line.p_BT0).norm();
+    const Vector3 way = line.p_BT1 - line.p_BT0;
+    const double length = way.norm();
+    const Quaternion whole = line.q_BT1 * line.q_BT0.conjugate();
+    const Vector3 axis = whole.w() < 0 ? Vector3{-whole.vec()} : Vector3{whole.vec()};  // slerp takes the shorter way
+    line.direction = length > kNoWay ? Vector3{way / length} : Vector3::Zero();
+    line.axis = axis.norm() > 0 ? Vector3{axis.normalized()} : Vector3::UnitZ();
     std::tie(line.translation, line.rotation) = line_laws(length, line.angle, *limits);
     m.duration_ = std::max(line.translation.duration(), line.rotation.duration());
     if (m.duration_ == 0) return Motion::rest(robot, from);
