@@ -32,7 +32,7 @@ bool enters_reach(SampledMotion& motion, const model::Robot& other) {
     const auto& piece = motion.piece(level, index);
     for (std::size_t i = 0; i < piece.bodies.size(); ++i) {
       const Body& b = piece.bodies[i];
-      const double apart = (b.X_WC.translation() - centre).norm() - b.axis->lz / 2 - b.radius - piece.reach[i];
+      const double apart = (b.centre - centre).norm() - b.half_length - b.radius - piece.reach[i];
       if (apart <= radius) return true;
     }
   }

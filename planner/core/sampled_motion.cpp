@@ -9,6 +9,7 @@ namespace interlace::core {
 namespace {
 
 constexpr int kLeastDepth = 4;
+constexpr std::size_t kPiecesPerBlock = 64;
 
 std::uint64_t next_id() {
   static std::atomic<std::uint64_t> last{0};
@@ -27,25 +28,36 @@ SampledMotion::SampledMotion(model::Motion motion, double resolution)
       id_(next_id()),
       depth_(depth_for(motion_.duration(), resolution)),
       finest_(depth_ > 0 ? depth_ + kFiner : 0),
-      shapes_(motion_.robot().model),
-      pieces_((std::size_t{2} << finest_) - 1) {}
+      pieces_((std::size_t{2} << finest_) - 1) {
+  for (const model::LinkCapsule& c : motion_.robot().model.capsules) half_lengths_.push_back((c.b - c.a).norm() / 2);
+}
 
-const SampledMotion::Piece& SampledMotion::piece(int level, std::size_t index) {
-  auto& slot = pieces_[(std::size_t{1} << level) - 1 + index];
-  if (!slot) {
-    auto made = std::make_unique<Piece>();
-    const double length = motion_.duration() / static_cast<double>(std::size_t{1} << level);
-    made->t0 = length * static_cast<double>(index);
-    made->t1 = made->t0 + length;
-    made->centre = made->t0 + length / 2;
-    std::vector<model::Capsule> capsules;
-    model::place_capsules(robot().model, robot().X_WB, motion_.joints(made->centre), capsules);
-    shapes_.place(capsules, made->bodies);
-    motion_.displacement(made->t0, made->centre, made->t1, made->reach);
-    made->largest_reach = made->reach.empty() ? 0 : *std::max_element(made->reach.begin(), made->reach.end());
-    slot = std::move(made);
+const SampledMotion::Piece& SampledMotion::make(int level, std::size_t index) {
+  const std::size_t bodies = half_lengths_.size();
+  if (blocks_.empty() || blocks_.back()->used == blocks_.back()->piece.size()) {
+    blocks_.push_back(std::make_unique<Block>(depth_ > 0 ? kPiecesPerBlock : 1, bodies));
   }
-  return *slot;
+  Block& block = *blocks_.back();
+  Piece& made = block.piece[block.used];
+  Body* body = block.body.data() + block.used * bodies;
+  double* reach = block.reach.data() + block.used * bodies;
+  ++block.used;
+
+  const double length = motion_.duration() / static_cast<double>(std::size_t{1} << level);
+  made.t0 = length * static_cast<double>(index);
+  made.t1 = made.t0 + length;
+  made.centre = made.t0 + length / 2;
+  const model::LinkFrames X = motion_.frames(made.centre);
+  motion_.displacement(made.t0, made.centre, made.t1, X, reach);
+  for (std::size_t i = 0; i < bodies; ++i) {
+    const model::LinkCapsule& c = robot().model.capsules[i];
+    body[i] = Body{robot().X_WB * (X[c.link] * c.a), robot().X_WB * (X[c.link] * c.b), half_lengths_[i], c.radius};
+    made.largest_reach = std::max(made.largest_reach, reach[i]);
+  }
+  made.bodies = {body, bodies};
+  made.reach = {reach, bodies};
+  pieces_[(std::size_t{1} << level) - 1 + index] = &made;
+  return made;
 }
 
 SampledMotion& SampledMotion::at_start() {

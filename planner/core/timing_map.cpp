@@ -23,49 +23,74 @@ class Subdivision {
     tau1_ = tau1;
     t0_ = t0;
     t1_ = t1;
-    cell(0, 0, 0, 0);
+    open_.clear();
+    const std::size_t own_bodies = own.robot().model.capsules.size();
+    const std::size_t other_bodies = other.robot().model.capsules.size();
+    const std::size_t pairs = own_bodies * other_bodies;
+    open_.reserve(pairs *
+                  static_cast<std::size_t>(own.finest() + other.finest() + 2));  // each cell on the way down adds to it at most once
+    for (std::size_t i = own_bodies; i-- > 0;) {                                 // hands first: they meet first
+      for (std::size_t j = other_bodies; j-- > 0;) open_.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j)});
+    }
+    cell(0, 0, 0, 0, 0, pairs);
   }
 
  private:
-  void cell(int own_level, std::size_t own_index, int other_level, std::size_t other_index) {
-    const auto& a = own_->piece(own_level, own_index);
-    const auto& b = other_->piece(other_level, other_index);
-    bool undecided = false;
-    bool collides = false;  // for certain, at the centre
-    double least = kNever;  // of clearance minus bound over the pairs that are not proven free
+  /// Bodies of both robots that are not proven apart yet.
+  struct Pair {
+    std::uint16_t own, other;
+  };
+
+  /// Examines one cell for the pairs [first, last) of `open_`: those its parent could not prove apart, the parent's worst one first. Pairs
+  /// that this cell cannot prove apart either are passed on behind them.
+  void cell(int own_level, std::size_t own_index, int other_level, std::size_t other_index, std::size_t first, std::size_t last) {
+    const SampledMotion::Piece& a = own_->piece(own_level, own_index);
+    const SampledMotion::Piece& b = other_->piece(other_level, other_index);
+    const bool at_resolution = own_level >= own_->depth() && other_level >= other_->depth();
+    bool decided = false;   // dividing it gains nothing
+    double least = kNever;  // of clearance minus bound over the pairs that are not proven apart
+    std::size_t worst = last;
     BlockedCell found;
-    for (std::size_t i = 0; i < a.bodies.size(); ++i) {
-      for (std::size_t j = 0; j < b.bodies.size(); ++j) {
-        const double bound = a.reach[i] + b.reach[j] + margin_;
-        if (clearance_lower_bound(a.bodies[i], b.bodies[j]) > bound) continue;
-        const double d = clearance(a.bodies[i], b.bodies[j]);
-        ++map_.evaluations;
-        if (d > bound) continue;
-        const bool throughout = d < margin_ - (a.reach[i] + b.reach[j]);
-        undecided = true;
-        collides = collides || d <= margin_;
-        if (d - bound < least || throughout) {
-          least = d - bound;
-          found.own_body = static_cast<std::uint16_t>(i);
-          found.other_body = static_cast<std::uint16_t>(j);
-          found.clearance = d;
-          found.bound = bound;
-        }
-        if (throughout) return block(a, b, found);
+    for (std::size_t k = first; k < last; ++k) {
+      const Pair pair = open_[k];
+      const Body& x = a.bodies[pair.own];
+      const Body& y = b.bodies[pair.other];
+      const double reach = a.reach[pair.own] + b.reach[pair.other];
+      const double bound = reach + margin_;
+      if (surely_farther(x, y, bound)) continue;
+      const double d = clearance(x, y);
+      ++map_.evaluations;
+      if (d > bound) continue;
+      decided = d < margin_ - reach || (at_resolution && d <= margin_);
+      if (d - bound < least || decided) {
+        least = d - bound;
+        worst = open_.size();
+        found.own_body = pair.own;
+        found.other_body = pair.other;
+        found.clearance = d;
+        found.bound = bound;
+      }
+      open_.push_back(pair);
+      if (decided) break;
+    }
+    if (open_.size() == last) return;
+    // Down to the resolution both motions are halved to it; beyond, either.
+    const bool own_splits = own_level < (at_resolution ? own_->finest() : own_->depth());
+    const bool other_splits = other_level < (at_resolution ? other_->finest() : other_->depth());
+    if (decided || (!own_splits && !other_splits)) {
+      block(a, b, found);
+    } else {
+      std::swap(open_[last], open_[worst]);
+      const std::size_t end = open_.size();
+      if (own_splits && (!other_splits || a.reach[found.own_body] >= b.reach[found.other_body])) {
+        cell(own_level + 1, 2 * own_index, other_level, other_index, last, end);
+        cell(own_level + 1, 2 * own_index + 1, other_level, other_index, last, end);
+      } else {
+        cell(own_level, own_index, other_level + 1, 2 * other_index, last, end);
+        cell(own_level, own_index, other_level + 1, 2 * other_index + 1, last, end);
       }
     }
-    if (!undecided) return;
-    // A cell with a collision inside stays blocked at the resolution; one without may still turn out free when looked at more closely.
-    const bool own_splits = own_level < (collides ? own_->depth() : own_->finest());
-    const bool other_splits = other_level < (collides ? other_->depth() : other_->finest());
-    if (!own_splits && !other_splits) return block(a, b, found);
-    if (own_splits && (!other_splits || a.largest_reach >= b.largest_reach)) {
-      cell(own_level + 1, 2 * own_index, other_level, other_index);
-      cell(own_level + 1, 2 * own_index + 1, other_level, other_index);
-    } else {
-      cell(own_level, own_index, other_level + 1, 2 * other_index);
-      cell(own_level, own_index, other_level + 1, 2 * other_index + 1);
-    }
+    open_.resize(last);
   }
 
   void block(const SampledMotion::Piece& a, const SampledMotion::Piece& b, BlockedCell& found) {
@@ -78,6 +103,7 @@ class Subdivision {
 
   TimingMap& map_;
   double margin_;
+  std::vector<Pair> open_;  // lists of the cells from the first one down to the one examined, one behind the other
   SampledMotion* own_ = nullptr;
   SampledMotion* other_ = nullptr;
   bool own_stands_ = false, other_stands_ = false;
