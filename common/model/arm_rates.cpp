@@ -14,7 +14,9 @@ std::optional<ArmRates> ArmRates::inside(const Kinematics& kinematics, const Lin
 
   // First roughly: the wrist's way, and what any velocity of it can do to the arm's directions anywhere on it.
   double way = 0;
-  for (const WristPace& pace : paces) way += pace.length * (pace.velocity.norm() + pace.drift);
+  for (const WristPace& pace : paces) {
+    if (pace.length > 0) way += pace.length * (pace.velocity.norm() + pace.drift);
+  }
   const double nearest = std::sqrt(wrist.x() * wrist.x() + wrist.y() * wrist.y()) - way;
   if (nearest <= b) return std::nullopt;
   const double radial = std::sqrt(nearest * nearest - b * b);
@@ -41,6 +43,7 @@ std::optional<ArmRates> ArmRates::inside(const Kinematics& kinematics, const Lin
   arm.forearm_length_ = k;
   arm.coarseness_ = turret_turn + std::max(upper_turn, forearm_turn);
   for (std::size_t i = 0; i < paces.size(); ++i) {
+    if (paces[i].length <= 0) continue;
     const Vector3& v = paces[i].velocity;
     const double speed = v.norm();
     Rates& r = arm.rates_[i];
@@ -69,6 +72,7 @@ double ArmRates::of_upper_arm_point(const Vector3& p) const {
   const double farthest = std::abs(turret.linear().col(0).dot(p)) + radius * upper_turn_;        // from axis 1, in the arm's plane
   double sum = 0;
   for (const Rates& r : rates_) {
+    if (r.length <= 0) continue;
     const double in_plane = radius * r.upper + lateral * r.turret;
     const double across = farthest * r.turret;
     sum += r.length * std::sqrt(in_plane * in_plane + across * across);

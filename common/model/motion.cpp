@@ -41,6 +41,13 @@ Pose Motion::tcp_in_base(const Line& line, double t) const {
   return make_pose(p, line.q_BT0.slerp(line.rotation.at(t) / line.rotation.distance(), line.q_BT1));
 }
 
+Pose Motion::flange_in_base(const Line& line, double t) const {
+  if (line.rotation.distance() > 0) return tcp_in_base(line, t) * line.X_TF;
+  Pose X_BF = line.X_BF1;  // as it will be, less the way that is left
+  X_BF.translation() -= (line.translation.distance() - line.translation.at(t)) * line.direction;
+  return X_BF;
+}
+
 Joints Motion::between_knots(double t) const {
   if (knots_.size() == 1 || t <= 0) return knots_.front();
   if (t >= duration_) return knots_.back();
@@ -58,7 +65,7 @@ Joints Motion::joints(double t) const {
     return q;
   }
   Joints near = between_knots(t);
-  const auto exact = robot_->model.kinematics.inverse(tcp_in_base(*line_, t) * robot_->model.X_FT.inverse(), line_->branch);
+  const auto exact = robot_->model.kinematics.inverse(flange_in_base(*line_, t), line_->branch);
   if (!exact) return near;  // the walk along the path found every knot in reach, so only rounding can miss in between
   Joints q;
   for (std::size_t i = 0; i < kJoints; ++i) q[i] = nearest_turn((*exact)[i], near[i]);
@@ -79,19 +86,24 @@ double Motion::length(double t) const {
   return lengths_[i] + (x - static_cast<double>(i)) * (lengths_[i + 1] - lengths_[i]);
 }
 
-LinkFrames Motion::frames(double t) const {
-  if (line_ && t > 0 && t < duration_) {
-    if (auto found = robot_->model.kinematics.frames(tcp_in_base(*line_, t) * robot_->model.X_FT.inverse(), line_->branch)) return *found;
-  }
-  return robot_->model.kinematics.forward(joints(t));
+void Motion::frames(double t, LinkFrames& X) const {
+  if (line_ && t > 0 && t < duration_ && robot_->model.kinematics.frames(flange_in_base(*line_, t), line_->branch, X)) return;
+  X = robot_->model.kinematics.forward(joints(t));
 }
 
 void Motion::displacement(double t0, double centre, double t1, std::vector<double>& out) const {
+  LinkFrames X;
+  frames(centre, X);
+  std::vector<Vector3> ends;
+  for (const LinkCapsule& c : robot_->model.capsules) {
+    ends.emplace_back(X[c.link] * c.a);
+    ends.emplace_back(X[c.link] * c.b);
+  }
   out.resize(robot_->model.capsules.size());
-  displacement(t0, centre, t1, frames(centre), out.data());
+  displacement(t0, centre, t1, {X, ends.data()}, out.data());
 }
 
-void Motion::displacement(double t0, double centre, double t1, const LinkFrames& at_centre, double* out) const {
+void Motion::displacement(double t0, double centre, double t1, const PlacedArm& at_centre, double* out) const {
   if (duration_ <= 0) {
     std::fill_n(out, robot_->model.capsules.size(), 0.0);
   } else if (line_) {
@@ -101,7 +113,7 @@ void Motion::displacement(double t0, double centre, double t1, const LinkFrames&
   }
 }
 
-void Motion::line_displacement(const Line& line, double t0, double centre, double t1, const LinkFrames& at_centre, double* out) const {
+void Motion::line_displacement(const Line& line, double t0, double centre, double t1, const PlacedArm& at_centre, double* out) const {
   // The laws are monotone, so the ends of the interval are the farthest from its centre.
   HandSweep hand;
   const double along = line.translation.at(centre);
@@ -113,7 +125,7 @@ void Motion::line_displacement(const Line& line, double t0, double centre, doubl
   displacement_by_hand(robot_->model, line.branch, at_centre, hand, out);
 }
 
-void Motion::joint_displacement(double t0, double centre, double t1, const LinkFrames& at_centre, double* out) const {
+void Motion::joint_displacement(double t0, double centre, double t1, const PlacedArm& at_centre, double* out) const {
   JointSweep sweep;
   for (std::size_t i = 0; i < kJoints; ++i) {
     const TimeLaw& law = joint_laws_[i];
@@ -263,6 +275,8 @@ Result<Motion, MotionError> plan_motion(const Robot& robot, const Joints& from, 
     line.angle = angle_between(line.q_BT0, line.q_BT1);
     const Vector3 way = line.p_BT1 - line.p_BT0;
     const double length = way.norm();
+    line.X_TF = model.X_FT.inverse();
+    line.X_BF1 = make_pose(line.p_BT1, line.q_BT1) * line.X_TF;
     const Quaternion whole = line.q_BT1 * line.q_BT0.conjugate();
     const Vector3 axis = whole.w() < 0 ? Vector3{-whole.vec()} : Vector3{whole.vec()};  // slerp takes the shorter way
     line.direction = length > kNoWay ? Vector3{way / length} : Vector3::Zero();
@@ -275,7 +289,7 @@ Result<Motion, MotionError> plan_motion(const Robot& robot, const Joints& from, 
       const TimeLaw& law = length > kNoWay ? line.translation : line.rotation;
       return law.at(t) / law.distance();
     };
-    const auto posture = [&](double t) { return model.kinematics.inverse(m.tcp_in_base(line, t) * model.X_FT.inverse(), line.branch); };
+    const auto posture = [&](double t) { return model.kinematics.inverse(m.flange_in_base(line, t), line.branch); };
     auto knots = PathWalk::along(robot, from, m.duration_, knots_for(length, line.angle), posture, place, share);
     if (!knots) return unexpected(knots.error());
     m.knots_ = std::move(*knots);

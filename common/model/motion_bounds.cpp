@@ -67,9 +67,12 @@ class LineBound {
  public:
   LineBound(const RobotModel& model, const Branch& branch, const LinkFrames& X, const HandSweep& hand)
       : X_(X), p_BW_(X[4].translation()), hand_(hand, X[6] * model.X_FT.translation()), wrist_(hand_(p_BW_)) {
-    const Vector3 swing = hand_.swing(p_BW_);
     const WristPace translation{hand.direction, 0, hand_.way()};
-    const WristPace rotation{swing, std::min(2.0, hand_.turn()) * swing.norm(), hand_.turn()};
+    WristPace rotation;
+    if (hand_.turn() > 0) {
+      const Vector3 swing = hand_.swing(p_BW_);
+      rotation = {swing, std::min(2.0, hand_.turn()) * swing.norm(), hand_.turn()};
+    }
     rates_ = ArmRates::inside(model.kinematics, X, {translation, rotation});
     if (rates_ && rates_->coarseness() < kCoarse) {
       forearm_turn_ = rates_->forearm_turn();
@@ -115,16 +118,20 @@ class LineBound {
 
 }  // namespace
 
-void displacement_by_joints(const RobotModel& model, const LinkFrames& X, const JointSweep& sweep, double* out) {
+void displacement_by_joints(const RobotModel& model, const PlacedArm& arm, const JointSweep& sweep, double* out) {
+  const Vector3* end = arm.ends;
   for (const LinkCapsule& c : model.capsules) {
-    *out++ = std::max(by_joints(X, c.link, X[c.link] * c.a, sweep), by_joints(X, c.link, X[c.link] * c.b, sweep));
+    const double at_a = by_joints(arm.X, c.link, *end++, sweep);
+    *out++ = std::max(at_a, by_joints(arm.X, c.link, *end++, sweep));
   }
 }
 
-void displacement_by_hand(const RobotModel& model, const Branch& branch, const LinkFrames& X, const HandSweep& hand, double* out) {
-  const LineBound bound{model, branch, X, hand};
+void displacement_by_hand(const RobotModel& model, const Branch& branch, const PlacedArm& arm, const HandSweep& hand, double* out) {
+  const LineBound bound{model, branch, arm.X, hand};
+  const Vector3* end = arm.ends;
   for (const LinkCapsule& c : model.capsules) {
-    *out++ = c.link == 0 ? 0.0 : std::max(bound(c.link, X[c.link] * c.a), bound(c.link, X[c.link] * c.b));
+    const double at_a = bound(c.link, *end++);
+    *out++ = std::max(at_a, bound(c.link, *end++));
   }
 }
 

@@ -62,13 +62,11 @@ class SampledMotion {
   [[nodiscard]] SampledMotion& at_end();
 
  private:
-  /// Room for pieces that come one by one and stay where they are.
+  /// Room for pieces that come one by one and stay where they are: never filled beyond what was reserved.
   struct Block {
-    Block(std::size_t pieces, std::size_t bodies) : piece(pieces), body(pieces * bodies), reach(pieces * bodies) {}
-    std::vector<Piece> piece;
-    std::vector<Body> body;
-    std::vector<double> reach;
-    std::size_t used = 0;
+    std::vector<Piece> pieces;
+    std::vector<Body> bodies;
+    std::vector<double> reaches;
   };
 
   const Piece& make(int level, std::size_t index);
@@ -78,8 +76,9 @@ class SampledMotion {
   int depth_ = 0;
   int finest_ = 0;
   std::vector<double> half_lengths_;  // of the capsules' axes [m]
+  std::vector<Vector3> ends_;         // of the capsules' axes in the piece being made, in the base frame [m]
   std::vector<const Piece*> pieces_;  // binary tree in heap order; null: not asked for yet
-  std::vector<std::unique_ptr<Block>> blocks_;
+  std::vector<Block> blocks_;
   std::unique_ptr<SampledMotion> at_start_, at_end_;
 };
 
