@@ -81,7 +81,7 @@ std::optional<ArmTriangle> Kinematics::triangle(const Vector3& p_BW, Branch::Sho
   t.radial = shoulder == Branch::Shoulder::front ? radial : -radial;
   t.x = t.radial - p_.a1;
   t.z = p_BW.z() - p_.c1;
-  t.distance = std::hypot(t.x, t.z);
+  t.distance = std::sqrt(t.x * t.x + t.z * t.z);
   return t;
 }
 
@@ -115,6 +115,70 @@ std::optional<Joints> Kinematics::inverse(const Pose& X_BF, const Branch& branch
   q[4] = std::atan2(c4 * R_36(0, 2) + s4 * R_36(1, 2), R_36(2, 2));
   q[5] = std::atan2(c4 * R_36(1, 0) - s4 * R_36(0, 0), c4 * R_36(1, 1) - s4 * R_36(0, 1));
   return to_external(q);
+}
+
+bool Kinematics::frames(const Pose& X_BF, const Branch& branch, LinkFrames& X) const {
+  const Vector3 p_BW = wrist_centre(X_BF);
+  const auto arm = triangle(p_BW, branch.shoulder);
+  if (!arm) return false;
+
+  // Cosine and sine of joint 1: the wrist's azimuth less that of the lateral offset, as a quotient of complex numbers.
+  const double across = std::sqrt((p_BW.x() * p_BW.x() + p_BW.y() * p_BW.y()) * (arm->radial * arm->radial + p_.b * p_.b));
+  if (across <= 0 || arm->distance <= 0) return false;
+  const double c1 = (p_BW.x() * arm->radial + p_BW.y() * p_.b) / across;
+  const double s1 = (p_BW.y() * arm->radial - p_BW.x() * p_.b) / across;
+
+  // The elbow's bend from the sides of the triangle, its sine by Heron's formula.
+  const double squared = arm->x * arm->x + arm->z * arm->z;
+  const double stretched = (p_.c2 + k_) * (p_.c2 + k_) - squared;
+  const double folded = squared - (p_.c2 - k_) * (p_.c2 - k_);
+  constexpr double kRounding = 1e-14;  // [m²] as in `inverse`
+  if (stretched < -kRounding || folded < -kRounding) return false;
+  const double twice = 2 * p_.c2 * k_;
+  const double cos_bend = std::clamp((squared - p_.c2 * p_.c2 - k_ * k_) / twice, -1.0, 1.0);
+  const double sin_bend = elbow_sign(branch) * std::sqrt(std::max(stretched, 0.0) * std::max(folded, 0.0)) / twice;
+  const double along = p_.c2 + k_ * cos_bend;  // wrist as the upper arm sees it, along it and square to it
+  const double aside = k_ * sin_bend;
+  const double reach = std::sqrt(squared * (along * along + aside * aside));
+  if (reach <= 0) return false;
+  const double c2 = (arm->z * along + arm->x * aside) / reach;
+  const double s2 = (arm->x * along - arm->z * aside) / reach;
+  const double c_wrist = c2 * cos_bend - s2 * sin_bend;  // of the direction elbow → wrist
+  const double s_wrist = s2 * cos_bend + c2 * sin_bend;
+  const double c3 = (c_wrist * p_.c3 + s_wrist * p_.a2) / k_;
+  const double s3 = (s_wrist * p_.c3 - c_wrist * p_.a2) / k_;
+
+  const Vector3 sideways{-s1, c1, 0};
+  const auto place_in_arm_plane = [&](Pose& link, double c, double s, const Vector3& p) {
+    link.linear().col(0) = Vector3{c * c1, c * s1, -s};
+    link.linear().col(1) = sideways;
+    link.linear().col(2) = Vector3{s * c1, s * s1, c};
+    link.translation() = p;
+    link.makeAffine();
+  };
+  X[0] = Pose::Identity();
+  place_in_arm_plane(X[1], 1, 0, Vector3::Zero());
+  place_in_arm_plane(X[2], c2, s2, Vector3{p_.a1 * c1, p_.a1 * s1, p_.c1});
+  place_in_arm_plane(X[3], c3, s3, X[2].translation() + p_.b * sideways + p_.c2 * X[2].linear().col(2));
+  X[6] = X_BF;
+
+  // The wrist: axis 5 is square to both the forearm's axis and the hand's.
+  const Vector3 hand = X_BF.linear().col(2);
+  const double x = X[3].linear().col(0).dot(hand);
+  const double y = sideways.dot(hand);
+  const double s5 = std::sqrt(x * x + y * y);
+  const double sign = branch.wrist == Branch::Wrist::positive ? 1.0 : -1.0;
+  const double c4 = s5 < kWristSingular ? 1.0 : sign * x / s5;
+  const double s4 = s5 < kWristSingular ? 0.0 : sign * y / s5;
+  X[4].linear().col(0) = c4 * X[3].linear().col(0) + s4 * sideways;
+  X[4].linear().col(1) = c4 * sideways - s4 * X[3].linear().col(0);
+  X[4].linear().col(2) = X[3].linear().col(2);
+  X[4].translation() = p_BW;
+  X[4].makeAffine();
+  X[5] = X[4];
+  X[5].linear().col(2) = hand;
+  X[5].linear().col(0) = X[5].linear().col(1).cross(hand);
+  return true;
 }
 
 Branch Kinematics::branch_of(const Joints& q_external) const {

@@ -60,6 +60,11 @@ class Kinematics {
   /// At wrist singularities (|sin q5| < 1e-12) joint 4 is set to zero and joint 6 carries the sum.
   [[nodiscard]] std::optional<Joints> inverse(const Pose& X_BF, const Branch& branch) const;
 
+  /// Frames of all links in the posture that `inverse` finds, straight from the geometry: no angle is ever computed, so it takes a fraction
+  /// of the time of `inverse` and `forward`. False, and `X` is useless, when out of reach or where the direction of the arm is not
+  /// determined.
+  [[nodiscard]] bool frames(const Pose& X_BF, const Branch& branch, LinkFrames& X) const;
+
   /// The branch `q` is in.
   [[nodiscard]] Branch branch_of(const Joints& q) const;
 

@@ -36,8 +36,16 @@ Motion Motion::rest(const Robot& robot, const Joints& q) {
 
 Pose Motion::tcp_in_base(const Line& line, double t) const {
   const double along = line.translation.distance() > 0 ? line.translation.at(t) / line.translation.distance() : 1.0;
-  const double turned = line.rotation.distance() > 0 ? line.rotation.at(t) / line.rotation.distance() : 1.0;
-  return make_pose(line.p_BT0 + along * (line.p_BT1 - line.p_BT0), line.q_BT0.slerp(turned, line.q_BT1));
+  const Vector3 p = line.p_BT0 + along * (line.p_BT1 - line.p_BT0);
+  if (line.rotation.distance() <= 0) return make_pose(p, line.q_BT1);
+  return make_pose(p, line.q_BT0.slerp(line.rotation.at(t) / line.rotation.distance(), line.q_BT1));
+}
+
+Pose Motion::flange_in_base(const Line& line, double t) const {
+  if (line.rotation.distance() > 0) return tcp_in_base(line, t) * line.X_TF;
+  Pose X_BF = line.X_BF1;  // as it will be, less the way that is left
+  X_BF.translation() -= (line.translation.distance() - line.translation.at(t)) * line.direction;
+  return X_BF;
 }
 
 Joints Motion::between_knots(double t) const {
@@ -63,7 +71,7 @@ Joints Motion::joints(double t) const {
     return q;
   }
   Joints near = between_knots(t);
-  const auto exact = robot_->model.kinematics.inverse(tcp_in_base(*line_, t) * robot_->model.X_FT.inverse(), line_->branch);
+  const auto exact = robot_->model.kinematics.inverse(flange_in_base(*line_, t), line_->branch);
   if (!exact) return near;  // the walk along the path found every knot in reach, so only rounding can miss in between
   Joints q;
   for (std::size_t i = 0; i < kJoints; ++i) q[i] = nearest_turn((*exact)[i], near[i]);
@@ -84,37 +92,52 @@ double Motion::length(double t) const {
   return lengths_[i] + (x - static_cast<double>(i)) * (lengths_[i + 1] - lengths_[i]);
 }
 
+void Motion::frames(double t, LinkFrames& X) const {
+  if (line_ && t > 0 && t < duration_ && robot_->model.kinematics.frames(flange_in_base(*line_, t), line_->branch, X)) return;
+  X = robot_->model.kinematics.forward(joints(t));
+}
+
 void Motion::displacement(double t0, double centre, double t1, std::vector<double>& out) const {
+  LinkFrames X;
+  frames(centre, X);
+  std::vector<Vector3> ends;
+  for (const LinkCapsule& c : robot_->model.capsules) {
+    ends.emplace_back(X[c.link] * c.a);
+    ends.emplace_back(X[c.link] * c.b);
+  }
+  out.resize(robot_->model.capsules.size());
+  displacement(t0, centre, t1, {X, ends.data()}, out.data());
+}
+
+void Motion::displacement(double t0, double centre, double t1, const PlacedArm& at_centre, double* out) const {
   if (duration_ <= 0) {
-    out.assign(robot_->model.capsules.size(), 0.0);
+    std::fill_n(out, robot_->model.capsules.size(), 0.0);
   } else if (line_) {
-    line_displacement(*line_, t0, centre, t1, out);
+    line_displacement(*line_, t0, centre, t1, at_centre, out);
   } else {
-    joint_displacement(t0, centre, t1, out);
+    joint_displacement(t0, centre, t1, at_centre, out);
   }
 }
 
-void Motion::line_displacement(const Line& line, double t0, double centre, double t1, std::vector<double>& out) const {
+void Motion::line_displacement(const Line& line, double t0, double centre, double t1, const PlacedArm& at_centre, double* out) const {
   // The laws are monotone, so the ends of the interval are the farthest from its centre.
   HandSweep hand;
-  const Vector3 way = line.p_BT1 - line.p_BT0;
-  const Vector3 direction = line.translation.distance() > 0 ? Vector3{way.normalized()} : Vector3::Zero();
-  hand.tcp = {direction * (line.translation.at(t0) - line.translation.at(centre)),
-              direction * (line.translation.at(t1) - line.translation.at(centre))};
-  const Quaternion whole = line.q_BT1 * line.q_BT0.conjugate();
-  const Vector3 axis = whole.w() < 0 ? Vector3{-whole.vec()} : Vector3{whole.vec()};  // slerp takes the shorter way
-  if (axis.norm() > 0) hand.axis = axis.normalized();
-  hand.turn = {line.rotation.at(t0) - line.rotation.at(centre), line.rotation.at(t1) - line.rotation.at(centre)};
-  displacement_by_hand(robot_->model, line.branch, joints(centre), hand, out);
+  const double along = line.translation.at(centre);
+  const double turned = line.rotation.at(centre);
+  hand.direction = line.direction;
+  hand.axis = line.axis;
+  hand.way = {line.translation.at(t0) - along, line.translation.at(t1) - along};
+  hand.turn = {line.rotation.at(t0) - turned, line.rotation.at(t1) - turned};
+  displacement_by_hand(robot_->model, line.branch, at_centre, hand, out);
 }
 
-void Motion::joint_displacement(double t0, double centre, double t1, std::vector<double>& out) const {
+void Motion::joint_displacement(double t0, double centre, double t1, const PlacedArm& at_centre, double* out) const {
   JointSweep sweep;
   for (std::size_t i = 0; i < kJoints; ++i) {
     const TimeLaw& law = joint_laws_[i];
     sweep[i] = std::max(law.at(t1) - law.at(centre), law.at(centre) - law.at(t0));
   }
-  displacement_by_joints(robot_->model, joints(centre), sweep, out);
+  displacement_by_joints(robot_->model, at_centre, sweep, out);
 }
 
 namespace {
@@ -256,7 +279,14 @@ Result<Motion, MotionError> plan_motion(const Robot& robot, const Joints& from, 
     line.q_BT0 = rotation_of(X_BT0);
     line.q_BT1 = rotation_of(X_BT1);
     line.angle = angle_between(line.q_BT0, line.q_BT1);
-    const double length = (line.p_BT1 - line.p_BT0).norm();
+    const Vector3 way = line.p_BT1 - line.p_BT0;
+    const double length = way.norm();
+    line.X_TF = model.X_FT.inverse();
+    line.X_BF1 = make_pose(line.p_BT1, line.q_BT1) * line.X_TF;
+    const Quaternion whole = line.q_BT1 * line.q_BT0.conjugate();
+    const Vector3 axis = whole.w() < 0 ? Vector3{-whole.vec()} : Vector3{whole.vec()};  // slerp takes the shorter way
+    line.direction = length > kNoWay ? Vector3{way / length} : Vector3::Zero();
+    line.axis = axis.norm() > 0 ? Vector3{axis.normalized()} : Vector3::UnitZ();
     std::tie(line.translation, line.rotation) = line_laws(length, line.angle, *limits);
     m.duration_ = std::max(line.translation.duration(), line.rotation.duration());
     if (m.duration_ == 0) return Motion::rest(robot, from);
@@ -265,7 +295,7 @@ Result<Motion, MotionError> plan_motion(const Robot& robot, const Joints& from, 
       const TimeLaw& law = length > kNoWay ? line.translation : line.rotation;
       return law.at(t) / law.distance();
     };
-    const auto posture = [&](double t) { return model.kinematics.inverse(m.tcp_in_base(line, t) * model.X_FT.inverse(), line.branch); };
+    const auto posture = [&](double t) { return model.kinematics.inverse(m.flange_in_base(line, t), line.branch); };
     auto knots = PathWalk::along(robot, from, m.duration_, knots_for(length, line.angle), posture, place, share);
     if (!knots) return unexpected(knots.error());
     m.knots_ = std::move(*knots);

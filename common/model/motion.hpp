@@ -7,6 +7,7 @@
 
 #include "common/model/cell.hpp"
 #include "common/model/messages.hpp"
+#include "common/model/placed_arm.hpp"
 #include "common/model/result.hpp"
 #include "common/model/time_law.hpp"
 
@@ -42,6 +43,9 @@ class Motion {
   /// Joints [rad] at local time `t` [s], continuous; the end postures outside [0, duration].
   [[nodiscard]] Joints joints(double t) const;
 
+  /// Frames of the links at local time `t`, in the base frame: what `joints(t)` places, without computing the joints of a linear move.
+  void frames(double t, LinkFrames& X) const;
+
   /// X_WT at local time `t`.
   [[nodiscard]] Pose tcp(double t) const;
 
@@ -52,21 +56,29 @@ class Motion {
   /// Writes one bound per capsule to `out`. Proof: docs/certificate.md.
   void displacement(double t0, double centre, double t1, std::vector<double>& out) const;
 
+  /// The same for an arm whose placement at `centre` is known already, without allocation; `out` has room for all capsules.
+  void displacement(double t0, double centre, double t1, const PlacedArm& at_centre, double* out) const;
+
  private:
   friend Result<Motion, MotionError> plan_motion(const Robot& robot, const Joints& from, const MotionRequest& request);
   struct Line {
     Branch branch;
     Vector3 p_BT0, p_BT1;  // TCP in the base frame
     Quaternion q_BT0, q_BT1;
-    double angle;         // [rad] between them
+    Pose X_TF;
+    Pose X_BF1;           // flange at the end
+    Vector3 direction;    // unit, of the translation; zero without one
+    Vector3 axis;         // unit, of the rotation; any without one
+    double angle;         // [rad] of the rotation
     TimeLaw translation;  // [m]
     TimeLaw rotation;     // [rad]
   };
   explicit Motion(const Robot& robot) : robot_(&robot) {}
   [[nodiscard]] Pose tcp_in_base(const Line& line, double t) const;
+  [[nodiscard]] Pose flange_in_base(const Line& line, double t) const;
   [[nodiscard]] Joints between_knots(double t) const;
-  void line_displacement(const Line& line, double t0, double centre, double t1, std::vector<double>& out) const;
-  void joint_displacement(double t0, double centre, double t1, std::vector<double>& out) const;
+  void line_displacement(const Line& line, double t0, double centre, double t1, const PlacedArm& at_centre, double* out) const;
+  void joint_displacement(double t0, double centre, double t1, const PlacedArm& at_centre, double* out) const;
 
   const Robot* robot_;
   double duration_ = 0;

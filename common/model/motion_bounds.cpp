@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/model/arm_rates.hpp"
+
 namespace interlace::model {
 
 namespace {
+
+/// Turn of the arm's directions [rad] in a piece from which on rates alone are too coarse, and the joints' sweeps are looked at too.
+constexpr double kCoarse = 0.1;
 
 /// Distance of point `p` from the line through `origin` along the unit vector `axis`.
 double distance_to_axis(const Vector3& p, const Vector3& origin, const Vector3& axis) {
@@ -30,161 +35,103 @@ double by_joints(const LinkFrames& X, std::size_t link, const Vector3& p, const 
   return sum;
 }
 
-/// Largest azimuth change of a direction with polar angle sine `s`, tilted by at most `tilt`.
-double azimuth_sweep(double tilt, double s) {
-  return tilt < kPi / 2 && std::sin(tilt) < s ? std::asin(std::sin(tilt) / s) : kPi;
-}
+/// Displacement of points that are fixed to the hand, which is known exactly.
+class HandBound {
+ public:
+  HandBound(const HandSweep& hand, const Vector3& p_BT)
+      : hand_(hand), p_BT_(p_BT), way_(std::max(-hand.way[0], hand.way[1])), turn_(std::max(-hand.turn[0], hand.turn[1])) {}
 
-/// Largest and smallest of a linear function over a wrist sweep.
-struct Range {
-  double low, high;
+  [[nodiscard]] double way() const { return way_; }    ///< of the TCP [m]
+  [[nodiscard]] double turn() const { return turn_; }  ///< [rad]
+
+  /// What a turn of one radian makes of point `p`.
+  [[nodiscard]] Vector3 swing(const Vector3& p) const { return hand_.axis.cross(p - p_BT_); }
+
+  [[nodiscard]] double operator()(const Vector3& p) const {
+    if (turn_ <= 0) return way_;
+    const Vector3 swing_of_p = swing(p);
+    const double radius = swing_of_p.norm();
+    double farthest = std::max(way_, turn_ * radius);
+    for (std::size_t i = 0; i < 2; ++i) farthest = std::max(farthest, (hand_.way[i] * hand_.direction + hand_.turn[i] * swing_of_p).norm());
+    return std::min(farthest + turn_ * turn_ * radius / 2, way_ + std::min(2.0, turn_) * radius);
+  }
+
+ private:
+  const HandSweep& hand_;
+  Vector3 p_BT_;
+  double way_, turn_;
 };
-Range along(const WristSweep& wrist, const Vector3& direction) {
-  Range range{0, 0};
-  for (const Vector3& corner : wrist.corners) {
-    range.low = std::min(range.low, direction.dot(corner));
-    range.high = std::max(range.high, direction.dot(corner));
-  }
-  return {range.low - wrist.sag, range.high + wrist.sag};
-}
 
-/// Distances from the origin to a box, nearest and farthest.
-Range distances(const Range& x, const Range& z) {
-  const double nearest = std::hypot(std::max({x.low, -x.high, 0.0}), std::max({z.low, -z.high, 0.0}));
-  const double farthest = std::hypot(std::max(-x.low, x.high), std::max(-z.low, z.high));
-  return {nearest, farthest};
-}
-
-/// Largest angle at the origin between the direction of (x, z) and any point of a box around it that does not hold the origin.
-double angle_to_box(double x, double z, const Range& box_x, const Range& box_z) {
-  double largest = 0;
-  for (const double corner_x : {box_x.low, box_x.high}) {
-    for (const double corner_z : {box_z.low, box_z.high}) {
-      largest = std::max(largest, std::abs(std::atan2(x * corner_z - z * corner_x, x * corner_x + z * corner_z)));
+/// Displacement of points of the whole arm in a piece of a linear motion: the least of the bounds that hold.
+class LineBound {
+ public:
+  LineBound(const RobotModel& model, const Branch& branch, const LinkFrames& X, const HandSweep& hand)
+      : X_(X), p_BW_(X[4].translation()), hand_(hand, X[6] * model.X_FT.translation()), wrist_(hand_(p_BW_)) {
+    const WristPace translation{hand.direction, 0, hand_.way()};
+    WristPace rotation;
+    if (hand_.turn() > 0) {
+      const Vector3 swing = hand_.swing(p_BW_);
+      rotation = {swing, std::min(2.0, hand_.turn()) * swing.norm(), hand_.turn()};
     }
+    rates_ = ArmRates::inside(model.kinematics, X, {translation, rotation});
+    if (rates_ && rates_->coarseness() < kCoarse) {
+      forearm_turn_ = rates_->forearm_turn();
+      return;
+    }
+    sweep_ = joint_sweep(model.kinematics, branch, X, wrist_sweep(hand, p_BW_ - X[6] * model.X_FT.translation()), hand_.turn());
+    forearm_turn_ = (*sweep_)[0] + (*sweep_)[1] + (*sweep_)[2];
+    if (rates_) forearm_turn_ = std::min(forearm_turn_, rates_->forearm_turn());
   }
-  return largest;
-}
 
-/// The wrist centre of an arm whose TCP and orientation move as `hand` says; `p_TcpWrist` at the centre, in base axes [m].
-WristSweep wrist_sweep(const HandSweep& hand, const Vector3& p_TcpWrist) {
-  std::array<Vector3, 2> turned;
-  for (std::size_t i = 0; i < 2; ++i) turned[i] = Eigen::AngleAxisd{hand.turn[i], hand.axis} * p_TcpWrist - p_TcpWrist;
-  WristSweep wrist;
-  wrist.corners = {hand.tcp[0] + turned[0], hand.tcp[0] + turned[1], hand.tcp[1] + turned[0], hand.tcp[1] + turned[1]};
-  wrist.sag = p_TcpWrist.norm() * (1 - std::cos(std::min(kPi, (hand.turn[1] - hand.turn[0]) / 2)));  // of the arc from its chord
-  return wrist;
-}
+  [[nodiscard]] double operator()(std::size_t link, const Vector3& p) const {
+    if (link == 0) return 0;
+    if (link == 6) return hand_(p);
+    double bound = sweep_ ? by_joints(X_, link, p, *sweep_) : kUnbounded;
+    if (link == 1) return rates_ ? std::min(bound, rates_->of_turret_point(p)) : bound;
+    if (link == 2) return rates_ ? std::min(bound, rates_->of_upper_arm_point(p)) : bound;
+    const double turn_of_wrist = azimuth_sweep(std::min(kPi, forearm_turn_ + hand_.turn()), wrist_sine(link));
+    if (link == 5) {  // the hand without its turn about its own axis
+      return std::min(bound, hand_(p) + std::min(2.0, turn_of_wrist) * distance_to_axis(p, p_BW_, X_[6].linear().col(2)));
+    }
+    double on_forearm = wrist_ + std::min(2.0, forearm_turn_) * (p - p_BW_).norm();
+    if (rates_) on_forearm = std::min(on_forearm, rates_->of_forearm_point(p, wrist_));
+    if (link == 3) return std::min(bound, on_forearm);
+    return std::min(bound, on_forearm + std::min(2.0, turn_of_wrist) * distance_to_axis(p, p_BW_, X_[3].linear().col(2)));
+  }
+
+ private:
+  static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+  /// Sine of joint 5; not needed, and not computed, for what is fixed to the forearm.
+  [[nodiscard]] double wrist_sine(std::size_t link) const {
+    return link == 3 ? 0 : X_[4].linear().col(2).cross(X_[6].linear().col(2)).norm();
+  }
+
+  const LinkFrames& X_;
+  Vector3 p_BW_;
+  HandBound hand_;
+  double wrist_;  // displacement of the wrist centre [m]
+  std::optional<ArmRates> rates_;
+  std::optional<JointSweep> sweep_;
+  double forearm_turn_ = kPi;
+};
 
 }  // namespace
 
-double WristSweep::radius() const {
-  double largest = 0;
-  for (const Vector3& corner : corners) largest = std::max(largest, corner.norm());
-  return largest + sag;
-}
-
-JointSweep joint_sweep(const Kinematics& kinematics, const Branch& branch, const Joints& q, const WristSweep& wrist, double rotation) {
-  const OpwParameters& p = kinematics.parameters();
-  const double k = kinematics.forearm_length();
-  JointSweep sweep = JointSweep::Constant(kPi);
-  const LinkFrames X = kinematics.forward(q);
-  const Vector3 p_BW = X[4].translation();
-  const auto arm = kinematics.triangle(p_BW, branch.shoulder);
-  const double r = std::hypot(p_BW.x(), p_BW.y());
-  if (!arm || r <= 0) return sweep;
-
-  // Seen from above: how far outwards, inwards and sideways the wrist may go.
-  const Vector3 outwards{p_BW.x() / r, p_BW.y() / r, 0};
-  const Vector3 sideways{-outwards.y(), outwards.x(), 0};
-  const Range out = along(wrist, outwards);
-  const Range side = along(wrist, sideways);
-  const double r_min = r + out.low;
-  if (r_min <= std::abs(p.b)) return sweep;  // the wrist may reach axis 1: any posture is possible
-  const double r_max = std::hypot(r + out.high, std::max(-side.low, side.high));
-
-  // Axis 1: azimuth of the wrist, and the angle the lateral offset takes from it.
-  const double radial = std::abs(arm->radial);
-  const double radial_min = std::sqrt(r_min * r_min - p.b * p.b);
-  const double radial_max = std::sqrt(r_max * r_max - p.b * p.b);
-  const double lateral = std::atan2(p.b, radial);
-  sweep[0] = angle_to_box(r, 0, {r_min, r + out.high}, side) +
-             std::max(std::abs(std::atan2(p.b, radial_min) - lateral), std::abs(std::atan2(p.b, radial_max) - lateral));
-
-  // In the arm's plane: the box the wrist stays in, seen from the shoulder; then direction and triangle.
-  const bool front = branch.shoulder == Branch::Shoulder::front;
-  const Range box_x = front ? Range{radial_min - p.a1, radial_max - p.a1} : Range{-radial_max - p.a1, -radial_min - p.a1};
-  const Range rise = along(wrist, Vector3::UnitZ());
-  const Range box_z{arm->z + rise.low, arm->z + rise.high};
-  const Range d = distances(box_x, box_z);
-  const double direction = d.low > 0 ? angle_to_box(arm->x, arm->z, box_x, box_z) : kPi;
-  const double d_min = std::clamp(d.low, std::abs(p.c2 - k), p.c2 + k);
-  const double d_max = std::clamp(d.high, std::abs(p.c2 - k), p.c2 + k);
-  const auto at_shoulder = [&](double reach) {  // angle between upper arm and shoulder → wrist
-    return reach > 0 ? std::acos(std::clamp((reach * reach + p.c2 * p.c2 - k * k) / (2 * reach * p.c2), -1.0, 1.0)) : kPi;
-  };
-  const auto at_elbow = [&](double reach) {  // bend of the elbow
-    return std::acos(std::clamp((reach * reach - p.c2 * p.c2 - k * k) / (2 * p.c2 * k), -1.0, 1.0));
-  };
-  const double shoulder = at_shoulder(arm->distance);
-  double triangle = std::max(std::abs(at_shoulder(d_min) - shoulder), std::abs(at_shoulder(d_max) - shoulder));
-  if (p.c2 > k) {  // the shoulder's angle is largest in between, where the forearm is square to shoulder → wrist
-    const double extreme = std::sqrt(p.c2 * p.c2 - k * k);
-    if (d_min < extreme && extreme < d_max) triangle = std::max(triangle, std::abs(at_shoulder(extreme) - shoulder));
-  }
-  const double elbow = at_elbow(arm->distance);
-  constexpr double kAcosRounding = 1e-7;  // [rad] of acos next to ±1
-  sweep[1] = std::min(kPi, direction + triangle + kAcosRounding);
-  sweep[2] = std::max(std::abs(at_elbow(d_min) - elbow), std::abs(at_elbow(d_max) - elbow)) + kAcosRounding;
-
-  // Wrist: the hand's axis as the forearm sees it tilts by no more than both orientations change.
-  const double tilt = std::min(kPi, sweep[0] + sweep[1] + sweep[2] + rotation);
-  const double s5 = std::abs(X[4].linear().col(2).cross(X[6].linear().col(2)).norm());
-  sweep[3] = azimuth_sweep(tilt, s5);
-  sweep[4] = tilt;
-  sweep[5] = sweep[3];  // the same seen from the hand: its own turn is the azimuth of the forearm's axis
-  return sweep;
-}
-
-void displacement_by_joints(const RobotModel& model, const Joints& q, const JointSweep& sweep, std::vector<double>& out) {
-  const LinkFrames X = model.kinematics.forward(q);
-  out.resize(model.capsules.size());
-  for (std::size_t i = 0; i < model.capsules.size(); ++i) {
-    const LinkCapsule& c = model.capsules[i];
-    out[i] = std::max(by_joints(X, c.link, X[c.link] * c.a, sweep), by_joints(X, c.link, X[c.link] * c.b, sweep));
+void displacement_by_joints(const RobotModel& model, const PlacedArm& arm, const JointSweep& sweep, double* out) {
+  const Vector3* end = arm.ends;
+  for (const LinkCapsule& c : model.capsules) {
+    const double at_a = by_joints(arm.X, c.link, *end++, sweep);
+    *out++ = std::max(at_a, by_joints(arm.X, c.link, *end++, sweep));
   }
 }
 
-void displacement_by_hand(const RobotModel& model, const Branch& branch, const Joints& q, const HandSweep& hand, std::vector<double>& out) {
-  const LinkFrames X = model.kinematics.forward(q);
-  const Vector3 p_BW = X[4].translation();
-  const Vector3 p_BT = X[6] * model.X_FT.translation();
-  const double tcp = std::max(hand.tcp[0].norm(), hand.tcp[1].norm());
-  const double rotation = std::max(-hand.turn[0], hand.turn[1]);
-  const double turn = std::min(2.0, rotation);  // chord of the rotation at unit radius
-  const WristSweep where = wrist_sweep(hand, p_BW - p_BT);
-  const double wrist = std::min(tcp + turn * (p_BW - p_BT).norm(), where.radius());
-  const JointSweep sweep = joint_sweep(model.kinematics, branch, q, where, rotation);
-  const double forearm_turn = std::min(2.0, sweep[0] + sweep[1] + sweep[2]);
-
-  const auto bound = [&](std::size_t link, const Vector3& p) {
-    const double from_base = by_joints(X, link, p, sweep);
-    if (link < 3) return from_base;
-    const double from_wrist_centre = (p - p_BW).norm();
-    if (link == 3) return std::min(from_base, wrist + forearm_turn * from_wrist_centre);
-    if (link == 4) {
-      const double roll = std::min(2.0, sweep[3]) * distance_to_axis(p, p_BW, X[3].linear().col(2));
-      return std::min(from_base, wrist + forearm_turn * from_wrist_centre + roll);
-    }
-    const double rigid = tcp + turn * (p - p_BT).norm();
-    const double on_flange = from_wrist_centre < 1e-12 ? wrist : std::min(rigid, wrist + turn * from_wrist_centre);
-    if (link == 6) return on_flange;
-    return on_flange + std::min(2.0, sweep[5]) * distance_to_axis(p, p_BW, X[6].linear().col(2));  // link 5: the flange without its turn
-  };
-  out.resize(model.capsules.size());
-  for (std::size_t i = 0; i < model.capsules.size(); ++i) {
-    const LinkCapsule& c = model.capsules[i];
-    out[i] = std::max(bound(c.link, X[c.link] * c.a), bound(c.link, X[c.link] * c.b));
+void displacement_by_hand(const RobotModel& model, const Branch& branch, const PlacedArm& arm, const HandSweep& hand, double* out) {
+  const LineBound bound{model, branch, arm.X, hand};
+  const Vector3* end = arm.ends;
+  for (const LinkCapsule& c : model.capsules) {
+    const double at_a = bound(c.link, *end++);
+    *out++ = std::max(at_a, bound(c.link, *end++));
   }
 }
 

@@ -9,13 +9,11 @@ namespace {
 /// Capsules fixed to a robot's base, as bodies that never move.
 class ImmovableBase {
  public:
-  explicit ImmovableBase(const model::Robot& robot) : robot_(&robot), shapes_(robot.model) {
+  explicit ImmovableBase(const model::Robot& robot) : robot_(&robot) {
     std::vector<model::Capsule> capsules;
-    std::vector<Body> bodies;
     model::place_capsules(robot.model, robot.X_WB, robot.start, capsules);
-    shapes_.place(capsules, bodies);
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      if (robot.model.capsules[i].link == 0) bodies_.emplace_back(i, bodies[i]);
+    for (std::size_t i = 0; i < capsules.size(); ++i) {
+      if (robot.model.capsules[i].link == 0) bodies_.emplace_back(i, Body{capsules[i]});
     }
   }
   [[nodiscard]] const model::Robot& robot() const { return *robot_; }
@@ -23,7 +21,6 @@ class ImmovableBase {
 
  private:
   const model::Robot* robot_;
-  BodyShapes shapes_;
   std::vector<std::pair<std::size_t, Body>> bodies_;
 };
 
@@ -68,7 +65,7 @@ class PathCheck {
 
   [[nodiscard]] bool near(const Body& a, const Body& b, double reach) const {
     const double bound = reach + margin_;
-    return clearance_lower_bound(a, b) <= bound && clearance(a, b) <= bound;
+    return !surely_farther(a, b, bound) && clearance(a, b) <= bound;
   }
 
   [[nodiscard]] std::string name(std::size_t body) const { return motion_.robot().model.capsules[body].name; }

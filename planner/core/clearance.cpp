@@ -1,41 +1,39 @@
 #include "planner/core/clearance.hpp"
 
-#include <fcl/narrowphase/distance.h>
+#include <fcl/narrowphase/detail/primitive_shape_algorithm/capsule_capsule.h>
+
+#include <cmath>
 
 namespace interlace::core {
 
-BodyShapes::BodyShapes(const model::RobotModel& model) {
-  for (const model::LinkCapsule& c : model.capsules) axes_.emplace_back(0.0, (c.b - c.a).norm());
+namespace {
+
+struct Nearest {
+  double squared_distance;
+  Vector3 on_a, on_b;
+};
+
+Nearest nearest(const Body& a, const Body& b) {
+  Nearest n;
+  double s = 0;
+  double t = 0;
+  n.squared_distance = fcl::detail::closestPtSegmentSegment(a.a, a.b, b.a, b.b, &s, &t, &n.on_a, &n.on_b);
+  return n;
 }
 
-void BodyShapes::place(const std::vector<model::Capsule>& capsules, std::vector<Body>& out) const {
-  out.resize(capsules.size());
-  for (std::size_t i = 0; i < capsules.size(); ++i) {
-    const model::Capsule& c = capsules[i];
-    Body& body = out[i];
-    body.axis = &axes_[i];
-    body.radius = c.radius;
-    body.X_WC.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), c.b - c.a).toRotationMatrix();
-    body.X_WC.translation() = (c.a + c.b) / 2;
-  }
-}
+}  // namespace
 
 double clearance(const Body& a, const Body& b) {
-  const fcl::DistanceRequestd request;
-  fcl::DistanceResultd result;
-  return fcl::distance(a.axis, a.X_WC, b.axis, b.X_WC, request, result) - a.radius - b.radius;
+  return std::sqrt(nearest(a, b).squared_distance) - a.radius - b.radius;
 }
 
 double clearance_lower_bound(const Body& a, const Body& b) {
-  return (a.X_WC.translation() - b.X_WC.translation()).norm() - (a.axis->lz + b.axis->lz) / 2 - a.radius - b.radius;
+  return (a.centre - b.centre).norm() - a.half_length - b.half_length - a.radius - b.radius;
 }
 
 Vector3 meeting_point(const Body& a, const Body& b) {
-  fcl::DistanceRequestd request;
-  request.enable_nearest_points = true;
-  fcl::DistanceResultd result;
-  fcl::distance(a.axis, a.X_WC, b.axis, b.X_WC, request, result);
-  return (result.nearest_points[0] + result.nearest_points[1]) / 2;
+  const Nearest n = nearest(a, b);
+  return (n.on_a + n.on_b) / 2;
 }
 
 }  // namespace interlace::core

@@ -18,18 +18,13 @@ double inside(double from, double to) {
 }
 
 Vector3 meeting_place(const Candidate& candidate, const Neighbour& neighbour, const BlockedCell& cell) {
-  const auto bodies_at = [](SampledMotion& m, double t, BodyShapes& shapes) {
+  const auto body_at = [](const SampledMotion& m, double t, std::size_t body) {
     std::vector<model::Capsule> capsules;
-    std::vector<Body> bodies;
     model::place_capsules(m.robot().model, m.robot().X_WB, m.motion().joints(t), capsules);
-    shapes.place(capsules, bodies);
-    return bodies;
+    return Body{capsules[body]};
   };
-  BodyShapes own_shapes{candidate.motion->robot().model};
-  BodyShapes other_shapes{neighbour.motion->robot().model};
-  const auto own = bodies_at(*candidate.motion, inside(cell.tau0, cell.tau1), own_shapes);
-  const auto other = bodies_at(*neighbour.motion, inside(cell.t0, cell.t1), other_shapes);
-  return meeting_point(own[cell.own_body], other[cell.other_body]);
+  return meeting_point(body_at(*candidate.motion, inside(cell.tau0, cell.tau1), cell.own_body),
+                       body_at(*neighbour.motion, inside(cell.t0, cell.t1), cell.other_body));
 }
 
 }  // namespace

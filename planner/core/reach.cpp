@@ -46,7 +46,7 @@ bool enters_reach(SampledMotion& motion, const model::Robot& other) {
     const auto& piece = motion.piece(level, index);
     for (std::size_t i = 0; i < piece.bodies.size(); ++i) {
       const Body& b = piece.bodies[i];
-      const double apart = (b.X_WC.translation() - volume.centre).norm() - b.axis->lz / 2 - b.radius - piece.reach[i];
+      const double apart = (b.centre - volume.centre).norm() - b.half_length - b.radius - piece.reach[i];
       if (apart <= volume.radius) return true;
     }
   }

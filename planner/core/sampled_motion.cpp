@@ -9,6 +9,7 @@ namespace interlace::core {
 namespace {
 
 constexpr int kLeastDepth = 4;
+constexpr std::size_t kPiecesPerBlock = 64;
 
 std::uint64_t next_id() {
   static std::atomic<std::uint64_t> last{0};
@@ -20,6 +21,13 @@ int depth_for(double duration, double resolution) {
   return std::max(kLeastDepth, static_cast<int>(std::ceil(std::log2(duration / resolution) - 1e-9)));
 }
 
+/// X · p column by column, which compilers turn into less than half the instructions of Eigen's product with a block of a 4 × 4 matrix.
+Vector3 placed(const model::Pose& X, const Vector3& p) {
+  const auto& m = X.matrix();
+  const auto column = [&m](int i) { return m.col(i).head<3>(); };
+  return column(0) * p.x() + column(1) * p.y() + column(2) * p.z() + column(3);
+}
+
 }  // namespace
 
 SampledMotion::SampledMotion(model::Motion motion, double resolution)
@@ -27,25 +35,44 @@ SampledMotion::SampledMotion(model::Motion motion, double resolution)
       id_(next_id()),
       depth_(depth_for(motion_.duration(), resolution)),
       finest_(depth_ > 0 ? depth_ + kFiner : 0),
-      shapes_(motion_.robot().model),
-      pieces_((std::size_t{2} << finest_) - 1) {}
+      pieces_((std::size_t{2} << finest_) - 1) {
+  for (const model::LinkCapsule& c : motion_.robot().model.capsules) half_lengths_.push_back((c.b - c.a).norm() / 2);
+  ends_.resize(2 * half_lengths_.size());
+}
 
-const SampledMotion::Piece& SampledMotion::piece(int level, std::size_t index) {
-  auto& slot = pieces_[(std::size_t{1} << level) - 1 + index];
-  if (!slot) {
-    auto made = std::make_unique<Piece>();
-    const double length = motion_.duration() / static_cast<double>(std::size_t{1} << level);
-    made->t0 = length * static_cast<double>(index);
-    made->t1 = made->t0 + length;
-    made->centre = made->t0 + length / 2;
-    std::vector<model::Capsule> capsules;
-    model::place_capsules(robot().model, robot().X_WB, motion_.joints(made->centre), capsules);
-    shapes_.place(capsules, made->bodies);
-    motion_.displacement(made->t0, made->centre, made->t1, made->reach);
-    made->largest_reach = made->reach.empty() ? 0 : *std::max_element(made->reach.begin(), made->reach.end());
-    slot = std::move(made);
+const SampledMotion::Piece& SampledMotion::make(int level, std::size_t index) {
+  const auto& capsules = robot().model.capsules;
+  if (blocks_.empty() || blocks_.back().pieces.size() == blocks_.back().pieces.capacity()) {
+    const std::size_t room = depth_ > 0 ? kPiecesPerBlock : 1;
+    Block& next = blocks_.emplace_back();
+    next.pieces.reserve(room);
+    next.bodies.reserve(room * capsules.size());
+    next.reaches.reserve(room * capsules.size());
   }
-  return *slot;
+  Block& block = blocks_.back();
+  Piece& made = block.pieces.emplace_back();
+  const double length = motion_.duration() / static_cast<double>(std::size_t{1} << level);
+  made.t0 = length * static_cast<double>(index);
+  made.t1 = made.t0 + length;
+  made.centre = made.t0 + length / 2;
+
+  model::LinkFrames X;
+  motion_.frames(made.centre, X);
+  const model::Pose& X_WB = robot().X_WB;
+  for (std::size_t i = 0; i < capsules.size(); ++i) {
+    const model::LinkCapsule& c = capsules[i];
+    ends_[2 * i] = placed(X[c.link], c.a);
+    ends_[2 * i + 1] = placed(X[c.link], c.b);
+    block.bodies.emplace_back(placed(X_WB, ends_[2 * i]), placed(X_WB, ends_[2 * i + 1]), half_lengths_[i], c.radius);
+  }
+  made.bodies = {block.bodies.data() + block.bodies.size() - capsules.size(), capsules.size()};
+  block.reaches.resize(block.reaches.size() + capsules.size());
+  double* reach = block.reaches.data() + block.reaches.size() - capsules.size();
+  motion_.displacement(made.t0, made.centre, made.t1, {X, ends_.data()}, reach);
+  made.reach = {reach, capsules.size()};
+  for (const double r : made.reach) made.largest_reach = std::max(made.largest_reach, r);
+  pieces_[(std::size_t{1} << level) - 1 + index] = &made;
+  return made;
 }
 
 SampledMotion& SampledMotion::at_start() {

@@ -9,14 +9,30 @@
 
 namespace interlace::core {
 
+/// Consecutive values that lie elsewhere for as long as they are looked at.
+template <typename T>
+class View {
+ public:
+  View() = default;
+  View(const T* first, std::size_t size) : first_(first), size_(size) {}
+  [[nodiscard]] const T& operator[](std::size_t i) const { return first_[i]; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const T* begin() const { return first_; }
+  [[nodiscard]] const T* end() const { return first_ + size_; }
+
+ private:
+  const T* first_ = nullptr;
+  std::size_t size_ = 0;
+};
+
 /// A motion as the collision maps see it: its duration halved again and again, each piece with the bodies at its centre and how far they
 /// may be from there anywhere in the piece. Pieces are computed when first asked for and kept. Not thread-safe.
 class SampledMotion {
  public:
   struct Piece {
     double t0 = 0, centre = 0, t1 = 0;  ///< local time [s]
-    std::vector<Body> bodies;           ///< at the centre, in the order of the model's capsules
-    std::vector<double> reach;          ///< displacement bound of each body within the piece [m]
+    View<Body> bodies;                  ///< at the centre, in the order of the model's capsules
+    View<double> reach;                 ///< displacement bound of each body within the piece [m]
     double largest_reach = 0;           ///< [m]
   };
 
@@ -36,19 +52,33 @@ class SampledMotion {
   [[nodiscard]] int finest() const { return finest_; }    ///< deepest level there is
 
   /// Piece `index` of the 2^level pieces of `level`.
-  [[nodiscard]] const Piece& piece(int level, std::size_t index);
+  [[nodiscard]] const Piece& piece(int level, std::size_t index) {
+    const Piece* kept = pieces_[(std::size_t{1} << level) - 1 + index];
+    return kept != nullptr ? *kept : make(level, index);
+  }
 
   /// Standing at the motion's first and last posture.
   [[nodiscard]] SampledMotion& at_start();
   [[nodiscard]] SampledMotion& at_end();
 
  private:
+  /// Room for pieces that come one by one and stay where they are: never filled beyond what was reserved.
+  struct Block {
+    std::vector<Piece> pieces;
+    std::vector<Body> bodies;
+    std::vector<double> reaches;
+  };
+
+  const Piece& make(int level, std::size_t index);
+
   model::Motion motion_;
   std::uint64_t id_;
   int depth_ = 0;
   int finest_ = 0;
-  BodyShapes shapes_;
-  std::vector<std::unique_ptr<Piece>> pieces_;  // binary tree in heap order
+  std::vector<double> half_lengths_;  // of the capsules' axes [m]
+  std::vector<Vector3> ends_;         // of the capsules' axes in the piece being made, in the base frame [m]
+  std::vector<const Piece*> pieces_;  // binary tree in heap order; null: not asked for yet
+  std::vector<Block> blocks_;
   std::unique_ptr<SampledMotion> at_start_, at_end_;
 };
 

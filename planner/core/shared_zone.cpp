@@ -60,20 +60,19 @@ Gap widest_gap(const Capsules& a, const Capsules& b, const Vector3& first) {
 }
 
 double distance_to_axis(const Vector3& p, const Body& body) {
-  const Vector3 z = body.X_WC.linear().col(2);
-  const double half = body.axis->lz / 2;
-  const double along = std::clamp(z.dot(p - body.X_WC.translation()), -half, half);
-  return (p - body.X_WC.translation() - along * z).norm();
+  const Vector3 axis = body.b - body.a;
+  const double along = body.half_length > 0 ? std::clamp(axis.dot(p - body.a) / axis.squaredNorm(), 0.0, 1.0) : 0.0;
+  return (p - body.a - along * axis).norm();
 }
 
 /// Half the length of the body's shadow on a line along `u`, of its axis alone.
 double half_shadow(const Body& body, const Vector3& u) {
-  return body.axis->lz / 2 * std::abs(u.dot(body.X_WC.linear().col(2)));
+  return std::abs(u.dot(body.b - body.a)) / 2;
 }
 
 bool may_be_in(const model::Box& box, const Body& body, double reach) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const double middle = body.X_WC.translation()[axis];
+    const double middle = body.centre[axis];
     const double half = half_shadow(body, Vector3::Unit(axis)) + body.radius + reach + kRounding;
     if (middle + half < box.min[axis] || middle - half > box.max[axis]) return false;
   }
@@ -126,7 +125,7 @@ bool SharedZone::may_hold(model::RobotIndex robot, const Body& body, double reac
   if (cell_.planning.zone) return may_be_in(*cell_.planning.zone, body, reach);
   const double around = body.radius + reach + kRounding;
   return std::any_of(shares_[robot].begin(), shares_[robot].end(), [&](const Share& share) {
-    const double ahead = share.towards.dot(body.X_WC.translation()) + half_shadow(body, share.towards) + around;
+    const double ahead = share.towards.dot(body.centre) + half_shadow(body, share.towards) + around;
     return ahead > share.face && distance_to_axis(share.volume.centre, body) - around <= share.volume.radius;
   });
 }

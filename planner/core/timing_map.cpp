@@ -1,6 +1,9 @@
 #include "planner/core/timing_map.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include "planner/core/shift_cover.hpp"
 
 namespace interlace::core {
 
@@ -9,79 +12,159 @@ namespace {
 /// Rounding of poses and of FCL's distance, kept on the safe side [m].
 constexpr double kRounding = 1e-7;
 
+/// Width of the buckets in which forbidden shifts are counted [s]: a small part of the resolution.
+constexpr double kBucket = 0.001;
+
+/// A part of the plane that two motions, or standing robots, make up; a standing robot's single piece stands for the times given.
+struct Panel {
+  SampledMotion* own;
+  SampledMotion* other;
+  double tau0, tau1, t0, t1;
+};
+
 class Subdivision {
  public:
   Subdivision(TimingMap& map, double margin) : map_(map), margin_(margin + kRounding) {}
 
-  /// Examines all of both motions' pieces; a standing robot's single piece stands for `own` or `other` times given.
-  void examine(SampledMotion& own, SampledMotion& other, double tau0, double tau1, double t0, double t1) {
-    own_ = &own;
-    other_ = &other;
-    own_stands_ = own.depth() == 0;
-    other_stands_ = other.depth() == 0;
-    tau0_ = tau0;
-    tau1_ = tau1;
-    t0_ = t0;
-    t1_ = t1;
-    cell(0, 0, 0, 0);
+  /// Examines all of both motions' pieces.
+  void examine(const Panel& panel) {
+    panel_ = panel;
+    const std::size_t own_bodies = panel.own->robot().model.capsules.size();
+    const std::size_t other_bodies = panel.other->robot().model.capsules.size();
+    open_.clear();  // each cell on the way down adds each pair at most once
+    open_.reserve(own_bodies * other_bodies * static_cast<std::size_t>(panel.own->finest() + panel.other->finest() + 2));
+    for (std::size_t i = own_bodies; i-- > 0;) {  // hands first: they meet first
+      for (std::size_t j = other_bodies; j-- > 0;) open_.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j)});
+    }
+    cell({0, 0, 0, 0}, 0, open_.size());
+  }
+
+  /// Looks more closely at the cells that `examine` has put off, where that could make a start window longer.
+  void finish() {
+    if (put_off_.empty()) return;
+    closer_ = true;
+    ShiftCover forbidden{-map_.commanded_duration, map_.moving_duration, kBucket};
+    const auto shifts = [](const BlockedCell& c) { return std::make_pair(c.t0 - c.tau1, c.t1 - c.tau0); };
+    for (const BlockedCell& c : map_.blocked) forbidden.add(shifts(c).first, shifts(c).second);
+    forbidden.settle();
+    for (const PutOff& p : put_off_) {
+      if (forbidden.holds(shifts(p.found).first, shifts(p.found).second)) {
+        map_.blocked.push_back(p.found);
+        continue;
+      }
+      panel_ = p.panel;
+      open_.assign(put_off_pairs_.begin() + static_cast<std::ptrdiff_t>(p.first_pair),
+                   put_off_pairs_.begin() + static_cast<std::ptrdiff_t>(p.last_pair));
+      cell(p.place, 0, open_.size());
+    }
   }
 
  private:
-  void cell(int own_level, std::size_t own_index, int other_level, std::size_t other_index) {
-    const auto& a = own_->piece(own_level, own_index);
-    const auto& b = other_->piece(other_level, other_index);
-    bool undecided = false;
-    bool collides = false;  // for certain, at the centre
-    double least = kNever;  // of clearance minus bound over the pairs that are not proven free
+  /// Bodies of both robots that are not proven apart yet.
+  struct Pair {
+    std::uint16_t own, other;
+  };
+  /// Which pieces a cell is made of.
+  struct Place {
+    int own_level;
+    std::size_t own_index;
+    int other_level;
+    std::size_t other_index;
+  };
+  /// A cell of the resolution whose centre seems clear.
+  struct PutOff {
+    Panel panel;
+    Place place;
     BlockedCell found;
-    for (std::size_t i = 0; i < a.bodies.size(); ++i) {
-      for (std::size_t j = 0; j < b.bodies.size(); ++j) {
-        const double bound = a.reach[i] + b.reach[j] + margin_;
-        if (clearance_lower_bound(a.bodies[i], b.bodies[j]) > bound) continue;
-        const double d = clearance(a.bodies[i], b.bodies[j]);
-        ++map_.evaluations;
-        if (d > bound) continue;
-        const bool throughout = d < margin_ - (a.reach[i] + b.reach[j]);
-        undecided = true;
-        collides = collides || d <= margin_;
-        if (d - bound < least || throughout) {
-          least = d - bound;
-          found.own_body = static_cast<std::uint16_t>(i);
-          found.other_body = static_cast<std::uint16_t>(j);
-          found.clearance = d;
-          found.bound = bound;
-        }
-        if (throughout) return block(a, b, found);
+    std::size_t first_pair, last_pair;  // of `put_off_pairs_`
+  };
+
+  /// Examines one cell for the pairs [first, last) of `open_`: those its parent could not prove apart, the parent's worst one first. Pairs
+  /// that this cell cannot prove apart either are passed on behind them.
+  void cell(const Place& at, std::size_t first, std::size_t last) {
+    const SampledMotion::Piece& a = panel_.own->piece(at.own_level, at.own_index);
+    const SampledMotion::Piece& b = panel_.other->piece(at.other_level, at.other_index);
+    const bool at_resolution = at.own_level >= panel_.own->depth() && at.other_level >= panel_.other->depth();
+    bool blocked = false;                       // dividing it gains nothing
+    double least = kNever;                      // of clearance minus bound over the pairs that are not proven apart
+    std::size_t worst = last, reached = first;  // the pair of `least`; the last one looked at
+    BlockedCell found;
+    for (std::size_t k = first; k < last; ++k) {
+      const Pair pair = open_[k];
+      const Body& x = a.bodies[pair.own];
+      const Body& y = b.bodies[pair.other];
+      const double reach = a.reach[pair.own] + b.reach[pair.other];
+      const double bound = reach + margin_;
+      if (surely_farther(x, y, bound)) continue;
+      const double d = clearance(x, y);
+      ++map_.evaluations;
+      if (d > bound) continue;
+      blocked = d < margin_ - reach || (at_resolution && d <= margin_);
+      if (d - bound < least || blocked) {
+        least = d - bound;
+        worst = open_.size();
+        found.own_body = pair.own;
+        found.other_body = pair.other;
+        found.clearance = d;
+        found.bound = bound;
       }
+      open_.push_back(pair);
+      reached = k;
+      if (blocked || (at_resolution && !closer_)) break;
     }
-    if (!undecided) return;
-    // A cell with a collision inside stays blocked at the resolution; one without may still turn out free when looked at more closely.
-    const bool own_splits = own_level < (collides ? own_->depth() : own_->finest());
-    const bool other_splits = other_level < (collides ? other_->depth() : other_->finest());
-    if (!own_splits && !other_splits) return block(a, b, found);
-    if (own_splits && (!other_splits || a.largest_reach >= b.largest_reach)) {
-      cell(own_level + 1, 2 * own_index, other_level, other_index);
-      cell(own_level + 1, 2 * own_index + 1, other_level, other_index);
+    if (open_.size() == last) return;
+    set_times(found, a, b);
+    if (blocked) {
+      map_.blocked.push_back(found);
+    } else if (at_resolution && !closer_) {
+      put_off(at, found, reached, last);
     } else {
-      cell(own_level, own_index, other_level + 1, 2 * other_index);
-      cell(own_level, own_index, other_level + 1, 2 * other_index + 1);
+      std::swap(open_[last], open_[worst]);
+      const bool own_is_farther = a.reach[found.own_body] >= b.reach[found.other_body];
+      if (!divide(at, at_resolution, own_is_farther, last)) map_.blocked.push_back(found);
     }
+    open_.resize(last);
   }
 
-  void block(const SampledMotion::Piece& a, const SampledMotion::Piece& b, BlockedCell& found) {
-    found.tau0 = own_stands_ ? tau0_ : a.t0;
-    found.tau1 = own_stands_ ? tau1_ : a.t1;
-    found.t0 = other_stands_ ? t0_ : b.t0;
-    found.t1 = other_stands_ ? t1_ : b.t1;
-    map_.blocked.push_back(found);
+  /// Examines the halves of a cell for the pairs from `first` on. False when it cannot be divided.
+  bool divide(const Place& at, bool at_resolution, bool own_is_farther, std::size_t first) {
+    const std::size_t last = open_.size();
+    const bool own_splits = at.own_level < (at_resolution ? panel_.own->finest() : panel_.own->depth());
+    const bool other_splits = at.other_level < (at_resolution ? panel_.other->finest() : panel_.other->depth());
+    if (own_splits && (own_is_farther || !other_splits)) {
+      cell({at.own_level + 1, 2 * at.own_index, at.other_level, at.other_index}, first, last);
+      cell({at.own_level + 1, 2 * at.own_index + 1, at.other_level, at.other_index}, first, last);
+      return true;
+    }
+    if (!other_splits) return false;
+    cell({at.own_level, at.own_index, at.other_level + 1, 2 * at.other_index}, first, last);
+    cell({at.own_level, at.own_index, at.other_level + 1, 2 * at.other_index + 1}, first, last);
+    return true;
+  }
+
+  void put_off(const Place& at, const BlockedCell& found, std::size_t first, std::size_t last) {
+    const std::size_t begin = put_off_pairs_.size();
+    put_off_pairs_.insert(put_off_pairs_.end(), open_.begin() + static_cast<std::ptrdiff_t>(first),
+                          open_.begin() + static_cast<std::ptrdiff_t>(last));
+    put_off_.push_back({panel_, at, found, begin, put_off_pairs_.size()});
+  }
+
+  void set_times(BlockedCell& c, const SampledMotion::Piece& a, const SampledMotion::Piece& b) const {
+    const bool own_stands = panel_.own->depth() == 0;
+    const bool other_stands = panel_.other->depth() == 0;
+    c.tau0 = own_stands ? panel_.tau0 : a.t0;
+    c.tau1 = own_stands ? panel_.tau1 : a.t1;
+    c.t0 = other_stands ? panel_.t0 : b.t0;
+    c.t1 = other_stands ? panel_.t1 : b.t1;
   }
 
   TimingMap& map_;
   double margin_;
-  SampledMotion* own_ = nullptr;
-  SampledMotion* other_ = nullptr;
-  bool own_stands_ = false, other_stands_ = false;
-  double tau0_ = 0, tau1_ = 0, t0_ = 0, t1_ = 0;
+  Panel panel_{};
+  bool closer_ = false;     // look at pieces smaller than the resolution too
+  std::vector<Pair> open_;  // lists of the cells from the first one down to the one examined, one behind the other
+  std::vector<PutOff> put_off_;
+  std::vector<Pair> put_off_pairs_;
 };
 
 }  // namespace
@@ -93,19 +176,21 @@ TimingMap build_timing_map(SampledMotion& commanded, SampledMotion& moving, doub
   Subdivision subdivision{map, margin};
   const double end = map.commanded_duration;
   const double other_end = map.moving_duration;
+  SampledMotion& ended = commanded.at_end();
   if (moving.depth() == 0) {  // stands for good
-    if (commanded.depth() > 0) subdivision.examine(commanded, moving, 0, end, -kNever, kNever);
-    subdivision.examine(commanded.at_end(), moving, end, kNever, -kNever, kNever);
-    return map;
+    if (commanded.depth() > 0) subdivision.examine({&commanded, &moving, 0, end, -kNever, kNever});
+    subdivision.examine({&ended, &moving, end, kNever, -kNever, kNever});
+  } else {
+    if (commanded.depth() > 0) {
+      subdivision.examine({&commanded, &moving.at_start(), 0, end, -kNever, 0});
+      subdivision.examine({&commanded, &moving, 0, end, 0, other_end});
+      subdivision.examine({&commanded, &moving.at_end(), 0, end, other_end, kNever});
+    }
+    subdivision.examine({&ended, &moving.at_start(), end, kNever, -kNever, 0});
+    subdivision.examine({&ended, &moving, end, kNever, 0, other_end});
+    subdivision.examine({&ended, &moving.at_end(), end, kNever, other_end, kNever});
   }
-  if (commanded.depth() > 0) {
-    subdivision.examine(commanded, moving.at_start(), 0, end, -kNever, 0);
-    subdivision.examine(commanded, moving, 0, end, 0, other_end);
-    subdivision.examine(commanded, moving.at_end(), 0, end, other_end, kNever);
-  }
-  subdivision.examine(commanded.at_end(), moving.at_start(), end, kNever, -kNever, 0);
-  subdivision.examine(commanded.at_end(), moving, end, kNever, 0, other_end);
-  subdivision.examine(commanded.at_end(), moving.at_end(), end, kNever, other_end, kNever);
+  subdivision.finish();
   return map;
 }
 

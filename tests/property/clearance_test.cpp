@@ -1,5 +1,6 @@
 #include "planner/core/clearance.hpp"
 
+#include <fcl/narrowphase/distance.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,11 +67,19 @@ Pair random_pair(Seed& seed, Kind kind) {
   return p;
 }
 
-/// A robot model that only serves to give two capsules a shape.
-model::RobotModel shapes_of(const Pair& p) {
-  model::RobotModel m;
-  m.capsules = {{"a", 0, p.a.a, p.a.b, p.a.radius}, {"b", 0, p.b.a, p.b.b, p.b.radius}};
-  return m;
+/// The axis as FCL takes it: a capsule of radius zero in a pose.
+double fcl_distance(const Capsule& a, const Capsule& b) {
+  const auto posed = [](const Capsule& c) {
+    fcl::Transform3d X_WC = fcl::Transform3d::Identity();
+    X_WC.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), c.b - c.a).toRotationMatrix();
+    X_WC.translation() = (c.a + c.b) / 2;
+    return X_WC;
+  };
+  const fcl::Capsuled axis_a{0.0, (a.b - a.a).norm()};
+  const fcl::Capsuled axis_b{0.0, (b.b - b.a).norm()};
+  const fcl::DistanceRequestd request;
+  fcl::DistanceResultd result;
+  return fcl::distance(&axis_a, posed(a), &axis_b, posed(b), request, result);
 }
 
 /// Least axis distance among sampled points of both segments: never below the true one.
@@ -94,18 +103,21 @@ TEST(Clearance, OfFclAgreesWithAnIndependentDistance) {
     const Kind kind = kShares[i % 10];
     const Pair p = random_pair(seed, kind);
     const double tolerance = kind == nearly_parallel ? kNearlyParallel : kExact;
-    const core::BodyShapes shapes{shapes_of(p)};
-    std::vector<core::Body> bodies;
-    shapes.place({p.a, p.b}, bodies);
-    const double fcl = core::clearance(bodies[0], bodies[1]);
+    const core::Body a{p.a};
+    const core::Body b{p.b};
+    const double fcl = core::clearance(a, b);
     const double radii = p.a.radius + p.b.radius;
     const double ours = model::segment_distance(p.a.a, p.a.b, p.b.a, p.b.b) - radii;
     ++count[kind];
     worst[kind] = std::max(worst[kind], std::abs(fcl - ours));
     EXPECT_NEAR(fcl, ours, tolerance) << kNames[kind] << "\na " << p.a.a.transpose() << " – " << p.a.b.transpose() << "\nb "
                                       << p.b.a.transpose() << " – " << p.b.b.transpose();
-    EXPECT_LE(core::clearance_lower_bound(bodies[0], bodies[1]), fcl + tolerance);
-    EXPECT_NEAR(core::clearance(bodies[1], bodies[0]), fcl, tolerance);
+    EXPECT_NEAR(fcl, fcl_distance(p.a, p.b) - radii, tolerance) << kNames[kind] << ": not what fcl::distance says of the same capsules";
+    const double skip = core::clearance_lower_bound(a, b);
+    EXPECT_LE(skip, fcl + tolerance);
+    EXPECT_FALSE(core::surely_farther(a, b, skip + tolerance));
+    EXPECT_TRUE(core::surely_farther(a, b, skip - tolerance));
+    EXPECT_NEAR(core::clearance(b, a), fcl, tolerance);
     if (i % 100 < 10) {  // one in ten, every kind
       constexpr int kSteps = 20;
       const double coarse = ((p.a.b - p.a.a).norm() + (p.b.b - p.b.a).norm()) / (2 * kSteps);
@@ -123,11 +135,10 @@ TEST(Clearance, MeetingPointLiesBetweenTheBodies) {
   Seed seed{42};
   for (std::size_t i = 0; i < scaled(20000) && !HasFailure(); ++i) {
     const Pair p = random_pair(seed, general);
-    const core::BodyShapes shapes{shapes_of(p)};
-    std::vector<core::Body> bodies;
-    shapes.place({p.a, p.b}, bodies);
-    const Vector3 m = core::meeting_point(bodies[0], bodies[1]);
-    const double axes = core::clearance(bodies[0], bodies[1]) + p.a.radius + p.b.radius;
+    const core::Body a{p.a};
+    const core::Body b{p.b};
+    const Vector3 m = core::meeting_point(a, b);
+    const double axes = core::clearance(a, b) + p.a.radius + p.b.radius;
     EXPECT_NEAR(model::segment_distance(m, m, p.a.a, p.a.b), axes / 2, 1e-6);
     EXPECT_NEAR(model::segment_distance(m, m, p.b.a, p.b.b), axes / 2, 1e-6);
   }

@@ -113,6 +113,38 @@ TEST(Kinematics, RoundTripOfArmsOfAnyProportions) {
   trip.expect_exact("random arms");
 }
 
+/// The frames found without any angle are those of the joints that the inverse finds.
+TEST(Kinematics, FramesAreThoseOfTheInverse) {
+  constexpr double kAgreement = 1e-11;  // [m] and of rotation elements, times what the nearest singularity makes of rounding
+  Seed seed{26};
+  double worst = 0;
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < scaled(100000); ++i) {
+    const OpwParameters p = i % 3 == 0 ? arm4().kinematics.parameters() : i % 3 == 1 ? offset_arm_parameters() : random_parameters(seed);
+    const Kinematics k{p};
+    const Pose X = k.flange(any_joints(seed));
+    for (const auto& branch : model::all_branches()) {
+      const auto q = k.inverse(X, branch);
+      model::LinkFrames frames;
+      ASSERT_EQ(k.frames(X, branch, frames), q.has_value());
+      if (!q) continue;
+      const auto expected = k.forward(*q);
+      const double wrist_sine = expected[4].linear().col(2).cross(X.linear().col(2)).norm();
+      const model::Vector3 forearm = (expected[4].translation() - expected[3].translation()) / k.forearm_length();
+      const double elbow_sine = forearm.cross(expected[2].linear().col(2)).norm();
+      const double condition = std::min({1.0, wrist_sine, elbow_sine, std::abs(k.triangle(k.wrist_centre(X), branch.shoulder)->radial),
+                                         k.triangle(k.wrist_centre(X), branch.shoulder)->distance});
+      for (std::size_t link = 0; link < expected.size(); ++link) {
+        const double off = (frames[link].matrix() - expected[link].matrix()).cwiseAbs().maxCoeff();
+        worst = std::max(worst, off * condition);
+        ASSERT_LE(off * condition, kAgreement) << "link " << link << ", case " << i;
+      }
+      ++compared;
+    }
+  }
+  std::printf("%zu postures, worst element times condition %.3g\n", compared, worst);
+}
+
 /// In the neighbourhood of a singularity, and on it, the joints are not unique but the pose they give is.
 TEST(Kinematics, InverseNextToSingularitiesStillReachesThePose) {
   Seed seed{24};

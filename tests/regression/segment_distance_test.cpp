@@ -53,12 +53,7 @@ double published_distance(const Vector3& p0, const Vector3& p1, const Vector3& q
 
 /// The planner's own distance between the axes.
 double fcl_distance(const Vector3& p0, const Vector3& p1, const Vector3& q0, const Vector3& q1) {
-  model::RobotModel m;
-  m.capsules = {{"p", 0, p0, p1, 0}, {"q", 0, q0, q1, 0}};
-  const core::BodyShapes shapes{m};
-  std::vector<core::Body> bodies;
-  shapes.place({{p0, p1, 0}, {q0, q1, 0}}, bodies);
-  return core::clearance(bodies[0], bodies[1]);
+  return core::clearance(core::Body{model::Capsule{p0, p1, 0}}, core::Body{model::Capsule{q0, q1, 0}});
 }
 
 TEST(SegmentDistance, AppendixAOverestimatesWhereBothNearestPointsLieOutside) {
