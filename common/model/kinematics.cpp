@@ -175,9 +175,11 @@ bool Kinematics::frames(const Pose& X_BF, const Branch& branch, LinkFrames& X) c
   X[4].linear().col(2) = X[3].linear().col(2);
   X[4].translation() = p_BW;
   X[4].makeAffine();
-  X[5] = X[4];
+  X[5].linear().col(0) = X[4].linear().col(1).cross(hand);
+  X[5].linear().col(1) = X[4].linear().col(1);
   X[5].linear().col(2) = hand;
-  X[5].linear().col(0) = X[5].linear().col(1).cross(hand);
+  X[5].translation() = p_BW;
+  X[5].makeAffine();
   return true;
 }
 

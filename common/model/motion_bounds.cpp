@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "common/model/arm_rates.hpp"
 
@@ -89,22 +92,22 @@ class LineBound {
     double bound = sweep_ ? by_joints(X_, link, p, *sweep_) : kUnbounded;
     if (link == 1) return rates_ ? std::min(bound, rates_->of_turret_point(p)) : bound;
     if (link == 2) return rates_ ? std::min(bound, rates_->of_upper_arm_point(p)) : bound;
-    const double turn_of_wrist = azimuth_sweep(std::min(kPi, forearm_turn_ + hand_.turn()), wrist_sine(link));
     if (link == 5) {  // the hand without its turn about its own axis
-      return std::min(bound, hand_(p) + std::min(2.0, turn_of_wrist) * distance_to_axis(p, p_BW_, X_[6].linear().col(2)));
+      return std::min(bound, hand_(p) + wrist_roll() * distance_to_axis(p, p_BW_, X_[6].linear().col(2)));
     }
     double on_forearm = wrist_ + std::min(2.0, forearm_turn_) * (p - p_BW_).norm();
     if (rates_) on_forearm = std::min(on_forearm, rates_->of_forearm_point(p, wrist_));
-    if (link == 3) return std::min(bound, on_forearm);
-    return std::min(bound, on_forearm + std::min(2.0, turn_of_wrist) * distance_to_axis(p, p_BW_, X_[3].linear().col(2)));
+    if (link == 4) on_forearm += wrist_roll() * distance_to_axis(p, p_BW_, X_[3].linear().col(2));
+    return std::min(bound, on_forearm);
   }
 
  private:
   static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-  /// Sine of joint 5; not needed, and not computed, for what is fixed to the forearm.
-  [[nodiscard]] double wrist_sine(std::size_t link) const {
-    return link == 3 ? 0 : X_[4].linear().col(2).cross(X_[6].linear().col(2)).norm();
+  /// Chord of joint 4's turn, and of joint 6's, at unit radius.
+  [[nodiscard]] double wrist_roll() const {
+    const double sine = X_[4].linear().col(2).cross(X_[6].linear().col(2)).norm();  // of joint 5
+    return std::min(2.0, azimuth_sweep(std::min(kPi, forearm_turn_ + hand_.turn()), sine));
   }
 
   const LinkFrames& X_;

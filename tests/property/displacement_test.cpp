@@ -119,7 +119,7 @@ TEST_F(Displacement, OfLinearMotionsIsNeverAboveItsBound) {
     if (motion->duration() > 0) check(seed, *motion);
   }
   report("linear");
-  EXPECT_LT(median_of_short_ones(), 8.0) << "the bound has become loose: maps would cost far more";
+  EXPECT_LT(median_of_short_ones(), 1.8) << "the bound has become loose: maps would cost far more";
 }
 
 TEST_F(Displacement, OfJointMotionsIsNeverAboveItsBound) {
