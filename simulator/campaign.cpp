@@ -28,7 +28,7 @@ class Campaign {
  public:
   explicit Campaign(const CampaignOptions& options) : options_(options) {
     if (options.cells.empty()) throw std::invalid_argument("a campaign needs a cell");
-    if (!core::make_strategy(options.strategy)) throw std::invalid_argument(fmt::format("unknown strategy \"{}\"", options.strategy));
+    if (!core::is_strategy(options.strategy)) throw std::invalid_argument(fmt::format("unknown strategy \"{}\"", options.strategy));
     for (const CampaignCell& c : options.cells) {
       auto cell = std::make_shared<model::Cell>(*c.cell);
       if (options.resolution) cell->planning.resolution = *options.resolution;

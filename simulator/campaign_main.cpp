@@ -87,7 +87,7 @@ ExitCode run(Arguments& a) {
     }
     a.options.cells.push_back({given, std::make_shared<const model::Cell>(std::move(loaded->cell))});
   }
-  if (!core::make_strategy(a.options.strategy)) {
+  if (!core::is_strategy(a.options.strategy)) {
     fmt::print(stderr, "--strategy: found \"{}\", expected one of: {}\n", a.options.strategy, fmt::join(core::strategy_names(), " "));
     return ExitCode::bad_input;
   }

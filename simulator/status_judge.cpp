@@ -3,36 +3,17 @@
 #include <fmt/format.h>
 
 #include <set>
-#include <string_view>
 
 namespace interlace::sim {
 
 using model::CommandState;
-
-namespace {
-
-/// The planner calls people: reason `deadlock`. By its name, since the planner that can say it is only being written; once
-/// model::Reason::deadlock is there, compare with it.
-bool calls_people(const model::CommandStatus& status) {
-  return std::string_view{model::to_string(status.reason)} == "deadlock";
-}
-
-}  // namespace
-
-std::string served_by(const std::string& id) {
-  constexpr std::string_view kPrefix = "escape-";
-  const auto last = id.rfind('-');
-  if (id.compare(0, kPrefix.size(), kPrefix) != 0 || last < kPrefix.size() || last + 1 == id.size()) return {};
-  if (id.find_first_not_of("0123456789", last + 1) != std::string::npos) return {};
-  return id.substr(kPrefix.size(), last - kPrefix.size());
-}
 
 void StatusJudge::on_status(const model::CommandStatus& status) {
   const auto [entry, fresh] = heard_.try_emplace(status.id);
   Heard& h = entry->second;
   if (!fresh && model::is_final(h.last.state)) h.after_final = true;
   h.escape = h.escape || status.escape;
-  h.warned = h.warned || calls_people(status);
+  h.warned = h.warned || status.reason == model::Reason::deadlock;
   h.last = status;
 }
 
@@ -67,10 +48,8 @@ Verdict StatusJudge::verdict(const std::vector<app::CommandRow>& rows) const {
     v.warnings += h.warned ? 1 : 0;
     if (!h.escape) continue;
     ++v.escapes;
-    const std::string served = served_by(id.str());
-    const auto command = heard_.find(model::CommandId{served});
-    if (command == heard_.end() || command->second.last.state != CommandState::completed)
-      fruitless.insert(served.empty() ? id.str() : served);
+    const auto command = heard_.find(h.last.serves);
+    if (command == heard_.end() || command->second.last.state != CommandState::completed) fruitless.insert(h.last.serves.str());
   }
   for (const std::string& served : fruitless) complain(fmt::format("escapes for {} completed no command", served));
   v.fruitless_rounds = fruitless.size();

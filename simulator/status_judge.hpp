@@ -25,7 +25,7 @@ struct Verdict {
 };
 
 /// Follows the statuses of a run and judges them by what must hold whatever the planner does: every accepted command gets exactly one
-/// final status, and every round of escapes serves a command that then completes. Escapes are called `escape-COMMAND-NUMBER`.
+/// final status, and every round of escapes serves a command that then completes.
 class StatusJudge {
  public:
   void on_status(const model::CommandStatus& status);
@@ -40,8 +40,5 @@ class StatusJudge {
   };
   std::map<model::CommandId, Heard> heard_;
 };
-
-/// The command that the escape called `id` serves; empty when that is no escape's id.
-[[nodiscard]] std::string served_by(const std::string& id);
 
 }  // namespace interlace::sim

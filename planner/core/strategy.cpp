@@ -141,6 +141,11 @@ const std::vector<std::string_view>& strategy_names() {
   return names;
 }
 
+bool is_strategy(std::string_view name) {
+  const auto& names = strategy_names();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 std::unique_ptr<Strategy> make_strategy(std::string_view name, const model::Cell& cell) {
   if (name == "direct") return std::make_unique<Direct>();
   if (name == "acm") return std::make_unique<Acm>();

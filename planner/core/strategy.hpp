@@ -116,4 +116,6 @@ class Strategy {
 
 [[nodiscard]] const std::vector<std::string_view>& strategy_names();
 
+[[nodiscard]] bool is_strategy(std::string_view name);
+
 }  // namespace interlace::core
