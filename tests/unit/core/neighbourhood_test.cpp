@@ -82,7 +82,6 @@ TEST(Neighbourhood, PairsSaidNotToMeetStayApartInEveryPosture) {
     cell.robots[1].X_WB.translation() += a.centre - b.centre + (a.radius + b.radius + cell.planning.margin + 1e-6) * away;
     const Neighbourhood neighbourhood{cell};
     ASSERT_FALSE(neighbourhood.meet(0, 1)) << "pair " << i;
-    std::array<core::BodyShapes, 2> shapes{core::BodyShapes{cell.robots[0].model}, core::BodyShapes{cell.robots[1].model}};
     for (int k = 0; k < 50; ++k) {
       std::array<std::vector<core::Body>, 2> bodies;
       for (std::size_t r = 0; r < 2; ++r) {
@@ -101,7 +100,7 @@ TEST(Neighbourhood, PairsSaidNotToMeetStayApartInEveryPosture) {
           if (ahead(other) > ahead(q)) q = other;
         }
         model::place_capsules(robot.model, robot.X_WB, q, capsules);
-        shapes[r].place(capsules, bodies[r]);
+        for (const auto& c : capsules) bodies[r].emplace_back(c);
       }
       for (const auto& x : bodies[0]) {
         for (const auto& y : bodies[1]) ASSERT_GT(core::clearance(x, y), cell.planning.margin) << "pair " << i << ", postures " << k;

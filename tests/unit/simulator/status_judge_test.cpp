@@ -60,26 +60,23 @@ TEST(StatusJudge, SeesAStatusAfterTheFinalOne) {
   EXPECT_FALSE(v.good());
 }
 
+model::CommandStatus escape(const std::string& id, const std::string& serves) {
+  model::CommandStatus s = status(id, CommandState::completed, true);
+  s.serves = model::CommandId{serves};
+  return s;
+}
+
 TEST(StatusJudge, AnEscapeMustServeACommandThatCompletes) {
   StatusJudge judge;
-  judge.on_status(status("escape-r1-1-1", CommandState::completed, true));
+  judge.on_status(escape("escape-1", "r1-1"));
   judge.on_status(status("r1-1", CommandState::completed));
   EXPECT_EQ(judge.verdict({row("r1-1")}).fruitless_rounds, 0U);
-  judge.on_status(status("escape-r2-7-1", CommandState::completed, true));
-  judge.on_status(status("escape-r2-7-2", CommandState::completed, true));
+  judge.on_status(escape("escape-2", "r2-7"));
+  judge.on_status(escape("escape-3", "r2-7"));
   judge.on_status(status("r2-7", CommandState::waiting));
   const Verdict v = judge.verdict({row("r1-1"), row("r2-7")});
   EXPECT_EQ(v.escapes, 3U);
   EXPECT_EQ(v.fruitless_rounds, 1U) << "two escapes for one command";
-}
-
-TEST(StatusJudge, ReadsWhomAnEscapeServes) {
-  EXPECT_EQ(served_by("escape-r1-1-2"), "r1-1");
-  EXPECT_EQ(served_by("escape-escape-x-1-12"), "escape-x-1");
-  EXPECT_EQ(served_by("r1-1"), "");
-  EXPECT_EQ(served_by("escape-r1"), "");
-  EXPECT_EQ(served_by("escape-"), "");
-  EXPECT_EQ(served_by("escape-r1-"), "");
 }
 
 }  // namespace
