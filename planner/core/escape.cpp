@@ -43,72 +43,132 @@ EscapeSearch::EscapeSearch(const model::Cell& cell, std::vector<EscapeView> robo
                            MapStore& maps)
     : cell_(cell), robots_(std::move(robots)), strategy_(strategy), timing_(timing), maps_(maps), rules_(strategy.service().rules) {}
 
-model::Result<EscapePlan, EscapeRefusals> EscapeSearch::make_room(const Candidate& served) {
-  PlannedMotion motion;
-  motion.robot = served.robot;
-  motion.motion = served.motion;
-  motion.tolerance = served.tolerance;
+model::Result<EscapePlan, EscapeRefusals> EscapeSearch::make_room(const Candidate& candidate, const model::MotionRequest& request) {
+  PlannedMotion served;
+  served.robot = candidate.robot;
+  served.request = request;
+  served.motion = candidate.motion;
+  served.tolerance = candidate.tolerance;
+  earliest_served_ = timing_.earliest;
+  if (auto plan = plainest_plan(served)) return std::move(*plan);
+  EscapeRefusals why = std::move(refusals_);
+  if (rules_.step_aside) {
+    if (auto plan = plan_stepping_aside(served)) return std::move(*plan);
+  }
+  return model::unexpected(std::move(why));
+}
+
+/// No cascades and the robots' own next commands still possible from where they go, if that can be had; less and less plain otherwise.
+std::optional<EscapePlan> EscapeSearch::plainest_plan(const PlannedMotion& served) {
   budget_ = kWaysPerSearch;
-  // The plainest escapes first: no cascades, and the robots' own next commands still possible from where they go.
-  EscapeRefusals plainest;
+  EscapeRefusals first;
   for (deepest_ = 1; deepest_ <= rules_.cascade; ++deepest_) {
     for (keep_next_ = rules_.keep_next;; keep_next_ = false) {
       refusals_.clear();
-      if (serve(motion, 0, [] { return true; })) {
+      if (serve(served, 0, [] { return true; })) {
         EscapePlan plan;
         plan.served = std::move(plan_.back().assessment);
         plan_.pop_back();
         plan.escapes = std::move(plan_);
         return plan;
       }
-      if (plainest.empty()) plainest = std::move(refusals_);
+      if (first.empty()) first = std::move(refusals_);
       if (!keep_next_) break;
     }
   }
-  return model::unexpected(std::move(plainest));
+  refusals_ = std::move(first);
+  return std::nullopt;
+}
+
+/// The commanded robot may itself stand where the others would have to pass. It goes home, or back where it came from, and its command
+/// is carried out from there.
+std::optional<EscapePlan> EscapeSearch::plan_stepping_aside(const PlannedMotion& served) {
+  const EscapeView& view = robots_[served.robot];
+  std::vector<std::pair<EscapeWay, model::MotionRequest>> places{{EscapeWay::home, view.home}};
+  for (const model::MotionRequest& back : view.trail) places.emplace_back(EscapeWay::retreat, back);
+  for (const auto& [way, request] : places) {
+    auto aside = admit(cell_, served.robot, view.motion()->motion().to(), request);
+    if (!aside || (*aside)->motion().duration() <= 0) continue;
+    auto from_there = admit(cell_, served.robot, (*aside)->motion().to(), served.request);
+    if (!from_there) continue;
+    PlannedMotion step{served.robot, way, request, std::move(*aside), served.tolerance, {}};
+    step.assessment = strategy_.assess({step.robot, step.motion, step.tolerance}, neighbours_of(step.robot), timing_, maps_);
+    if (!step.assessment.start) continue;
+    const model::Motion& motion = step.motion->motion();
+    earliest_served_ = *step.assessment.start + step.tolerance + timing_.confirm +
+                       model::from_seconds(motion.duration() * (1 + motion.robot().controller.speed_error));
+    PlannedMotion then = served;
+    then.motion = std::move(*from_there);
+    commit(std::move(step));
+    auto plan = plainest_plan(then);
+    if (plan) return plan;
+    take_back();
+  }
+  return std::nullopt;
+}
+
+/// From here on the motion is a fact for all others.
+void EscapeSearch::commit(PlannedMotion motion) {
+  std::vector<Neighbour>& seen = robots_[motion.robot].seen;
+  before_.push_back(seen);
+  Neighbour n = seen.back();
+  n.motion = motion.motion;
+  n.committed = true;
+  n.start_from = *motion.assessment.start;
+  n.start_until = n.start_from + motion.tolerance;
+  if (!seen.back().committed) seen.clear();
+  seen.push_back(n);
+  plan_.push_back(std::move(motion));
+}
+
+void EscapeSearch::take_back() {
+  robots_[plan_.back().robot].seen = std::move(before_.back());
+  before_.pop_back();
+  plan_.pop_back();
 }
 
 /// Commits `motion` in the plan when it has a start, else clears its blockers out of the way one by one; then goes on with `then`.
 /// Whatever was tried in vain is taken back.
 bool EscapeSearch::serve(PlannedMotion motion, int depth, const Goal& then) {
-  motion.assessment = strategy_.assess({motion.robot, motion.motion, motion.tolerance}, neighbours_of(motion.robot), timing_, maps_);
+  Timing timing = timing_;
+  if (depth == 0) timing.earliest = earliest_served_;
+  motion.assessment = strategy_.assess({motion.robot, motion.motion, motion.tolerance}, neighbours_of(motion.robot), timing, maps_);
   if (motion.assessment.start) {
-    const Neighbour before = robots_[motion.robot].now;
-    Neighbour& n = robots_[motion.robot].now;
-    n.motion = motion.motion;
-    n.committed = true;
-    n.start_from = *motion.assessment.start;
-    n.start_until = n.start_from + motion.tolerance;
-    plan_.push_back(std::move(motion));
+    commit(std::move(motion));
     if (then()) return true;
-    robots_[plan_.back().robot].now = before;
-    plan_.pop_back();
+    take_back();
     return false;
   }
   const auto& blockers = motion.assessment.blockers;
   if (depth >= deepest_) {
-    if (depth > 0 && !motion.assessment.conflicts.empty()) {
+    if (!motion.assessment.conflicts.empty()) {
       const auto& c = motion.assessment.conflicts.front();
       refuse(motion.robot, motion.way, fmt::format("{} is in the way there with its {}", c.blocker.str(), c.blocker_link));
     }
     return false;
   }
-  for (const RobotIndex b : blockers) {
-    if (robots_[b].now.committed || !robots_[b].immovable.empty()) {
-      refuse(b, motion.way, robots_[b].immovable.empty() ? std::string{"its own motion ends in the way"} : robots_[b].immovable);
-      return false;
+  const auto cannot_go = [&](RobotIndex b) {
+    return robots_[b].committed() || !robots_[b].immovable.empty() ||
+           std::any_of(protected_.begin(), protected_.end(), [&](const auto& p) { return &p->robot() == &cell_.robots[b]; });
+  };
+  if (blockers.empty() || std::any_of(blockers.begin(), blockers.end(), cannot_go)) {
+    for (const RobotIndex b : blockers) {
+      if (!robots_[b].immovable.empty()) refuse(b, EscapeWay::plus_x, robots_[b].immovable);
     }
+    return false;
   }
-  if (blockers.empty()) return false;
   // Nearest to a face of the cuboid goes first (6.3.2); the others follow when this motion is assessed again.
   const Cuboid cuboid = swept_cuboid(motion.motion->motion());
   const auto nearest = *std::min_element(blockers.begin(), blockers.end(), [&](RobotIndex a, RobotIndex b) {
-    const auto least = [&](RobotIndex i) {
-      return escape_directions(cuboid, robots_[i].now.motion->motion().tcp(0).translation()).front().distance;
-    };
+    const auto least = [&](RobotIndex i) { return escape_directions(cuboid, tcp_of(i)).front().distance; };
     return least(a) < least(b);
   });
   return clear_by(nearest, motion, depth, then);
+}
+
+/// Where the TCP of a robot that stands is [m].
+Vector3 EscapeSearch::tcp_of(RobotIndex robot) const {
+  return robots_[robot].motion()->motion().tcp(robots_[robot].motion()->motion().duration()).translation();
 }
 
 bool EscapeSearch::clear_by(RobotIndex blocker, const PlannedMotion& motion, int depth, const Goal& then) {
@@ -142,9 +202,9 @@ const std::vector<EscapeSearch::Way>& EscapeSearch::ways_of(RobotIndex robot, co
   if (!fresh) return entry->second;
   std::vector<Way>& ways = entry->second;
   const EscapeView& view = robots_[robot];
-  const model::Joints& from = view.now.motion->motion().to();
+  const model::Joints& from = view.motion()->motion().to();
   const Cuboid cuboid = swept_cuboid(served->motion());
-  for (const EscapeDirection& d : escape_directions(cuboid, view.now.motion->motion().tcp(0).translation())) {
+  for (const EscapeDirection& d : escape_directions(cuboid, tcp_of(robot))) {
     ways.push_back({d.way, to_reachable_goal(cell_, robot, from, d.unit), "it cannot go any farther that way"});
   }
   if (rules_.six_directions_only) return ways;
@@ -223,7 +283,7 @@ std::optional<double> EscapeSearch::first_clear(const SampledMotionPtr& full) {
 double EscapeSearch::safe_length(RobotIndex robot, const SampledMotionPtr& full) {
   double first = kNever;
   for (RobotIndex other = 0; other < robots_.size(); ++other) {
-    const Neighbour& n = robots_[other].now;
+    const Neighbour& n = robots_[other].seen.back();
     if (other == robot || n.committed || n.lost) continue;
     for (const BlockedCell& c : maps_.get(full, n.motion).blocked) first = std::min(first, c.tau0);
   }
@@ -232,14 +292,17 @@ double EscapeSearch::safe_length(RobotIndex robot, const SampledMotionPtr& full)
 
 std::vector<Neighbour> EscapeSearch::neighbours_of(RobotIndex robot) const {
   std::vector<Neighbour> neighbours;
-  for (const EscapeView& view : robots_) {
-    if (view.now.robot != robot) neighbours.push_back(view.now);
+  for (RobotIndex other = 0; other < robots_.size(); ++other) {
+    if (other != robot) neighbours.insert(neighbours.end(), robots_[other].seen.begin(), robots_[other].seen.end());
   }
   return neighbours;
 }
 
+/// One reason for each way: the first.
 void EscapeSearch::refuse(RobotIndex robot, EscapeWay way, std::string text) {
-  if (refusals_.size() < kRefusalsKept) refusals_.push_back({cell_.robots[robot].name, way, std::move(text)});
+  const model::RobotName& name = cell_.robots[robot].name;
+  const auto known = std::any_of(refusals_.begin(), refusals_.end(), [&](const auto& r) { return r.robot == name && r.way == way; });
+  if (!known && refusals_.size() < kRefusalsKept) refusals_.push_back({name, way, std::move(text)});
 }
 
 }  // namespace interlace::core

@@ -11,12 +11,15 @@ namespace interlace::core {
 
 /// A robot as the search for escapes has to see it.
 struct EscapeView {
-  Neighbour now;                            ///< as everyone sees it
+  std::vector<Neighbour> seen;              ///< as everyone sees it: one entry for each motion, or where it stands
   std::string immovable;                    ///< why it cannot be sent anywhere; empty: it can
   Duration tolerance{};                     ///< its latest start after the planned one
   std::vector<model::MotionRequest> trail;  ///< back along the path it came, newest place first
   model::MotionRequest home;
   const model::MotionRequest* next = nullptr;  ///< first command that waits for it
+
+  [[nodiscard]] bool committed() const { return seen.back().committed; }
+  [[nodiscard]] const SampledMotionPtr& motion() const { return seen.back().motion; }
 };
 
 /// A motion with the start chosen for it.
@@ -46,8 +49,9 @@ class EscapeSearch {
  public:
   EscapeSearch(const model::Cell& cell, std::vector<EscapeView> robots, const Strategy& strategy, const Timing& timing, MapStore& maps);
 
-  /// Room for `served`, which has no start as things are.
-  [[nodiscard]] model::Result<EscapePlan, EscapeRefusals> make_room(const Candidate& served);
+  /// Room for `served`, which has no start as things are and was made from `request`. Where nothing else helps its robot steps aside first
+  /// itself: then the plan's first escape is its own, and what is served starts from there.
+  [[nodiscard]] model::Result<EscapePlan, EscapeRefusals> make_room(const Candidate& served, const model::MotionRequest& request);
 
  private:
   struct Way {
@@ -57,6 +61,10 @@ class EscapeSearch {
   };
   using Goal = std::function<bool()>;
 
+  std::optional<EscapePlan> plainest_plan(const PlannedMotion& served);
+  std::optional<EscapePlan> plan_stepping_aside(const PlannedMotion& served);
+  void commit(PlannedMotion motion);
+  void take_back();
   bool serve(PlannedMotion motion, int depth, const Goal& then);
   bool clear_by(model::RobotIndex blocker, const PlannedMotion& motion, int depth, const Goal& then);
   const std::vector<Way>& ways_of(model::RobotIndex robot, const SampledMotionPtr& served);
@@ -64,6 +72,7 @@ class EscapeSearch {
   const RequestedMotion& cut(model::RobotIndex robot, const Way& way, double length);
   [[nodiscard]] std::optional<double> first_clear(const SampledMotionPtr& full);
   [[nodiscard]] double safe_length(model::RobotIndex robot, const SampledMotionPtr& full);
+  [[nodiscard]] Vector3 tcp_of(model::RobotIndex robot) const;
   [[nodiscard]] std::vector<Neighbour> neighbours_of(model::RobotIndex robot) const;
   void refuse(model::RobotIndex robot, model::EscapeWay way, std::string text);
 
@@ -76,8 +85,10 @@ class EscapeSearch {
   int deepest_ = 1;
   bool keep_next_ = true;
   int budget_ = 0;
-  std::vector<PlannedMotion> plan_;          // decided so far, in order
-  std::vector<SampledMotionPtr> protected_;  // motions that room is being made for, outermost first
+  std::vector<PlannedMotion> plan_;             // decided so far, in order
+  std::vector<std::vector<Neighbour>> before_;  // how the robots of the plan were seen before
+  Instant earliest_served_{};                   // start of what is served: not while its robot still steps aside
+  std::vector<SampledMotionPtr> protected_;     // motions that room is being made for, outermost first
   std::map<std::pair<model::RobotIndex, std::uint64_t>, std::vector<Way>> ways_;
   std::map<std::pair<const SampledMotion*, long>, RequestedMotion> cut_;
   EscapeRefusals refusals_;

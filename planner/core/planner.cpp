@@ -116,7 +116,7 @@ bool Planner::try_commit(RobotRecord& r, Instant now, Decisions& out) {
   const Candidate candidate = candidate_of(r, head.motion);
   std::vector<Neighbour> neighbours;
   for (RobotRecord& other : robots_) {
-    if (&other != &r) neighbours.push_back(other.as_neighbour(index_of(other), now));
+    if (&other != &r) other.add_as_neighbour(index_of(other), now, neighbours);
   }
   Assessment a = strategy_->assess(candidate, neighbours, timing_at(now), maps_);
   if (a.start) {
@@ -133,7 +133,8 @@ bool Planner::try_commit(RobotRecord& r, Instant now, Decisions& out) {
   return false;
 }
 
-/// Makes the start that `a` chose for the command whose turn it is a fact. `could_start`: what its delay is counted from.
+/// Makes the start that `a` chose for the command whose turn it is a fact, after what its robot is committed to already.
+/// `could_start`: what its delay is counted from.
 void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment a, Instant could_start, Decisions& out) {
   auto& from = r.escapes.empty() ? r.queue : r.escapes;
   QueuedCommand command = std::move(from.front());
@@ -150,7 +151,7 @@ void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment
   c.serial = ++r.last_serial;
   c.start_from = *a.start;
   c.start_until = *a.start + candidate.tolerance;
-  for (const model::RobotIndex other : a.departures) c.departures.emplace_back(other, robots_[other].committed->serial);
+  for (const model::RobotIndex other : a.departures) c.departures.emplace_back(other, robots_[other].last_committed());
   status.state = CommandState::scheduled;
   status.reason = a.reason;
   status.start = c.start_from;
@@ -162,7 +163,7 @@ void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment
   publish(status, out);
   if (command.origin == QueuedCommand::Origin::client) r.way_back.clear();  // where it goes now is where its queue is judged from
   c.command = std::move(command);
-  r.committed = std::move(c);
+  (r.committed ? r.following : r.committed) = std::move(c);
   r.blockers.clear();
   ++revision_;
 }
@@ -172,7 +173,9 @@ Planner::Departures Planner::departures_of(const Commitment& c) const {
   for (const auto& [robot, serial] : c.departures) {
     const RobotRecord& other = robots_[robot];
     if (other.last_started >= serial) continue;
-    if (!other.committed || other.committed->serial != serial) return Departures::broken;
+    const bool still_to_come =
+        (other.committed && other.committed->serial == serial) || (other.following && other.following->serial == serial);
+    if (!still_to_come) return Departures::broken;
     result = Departures::open;
   }
   return result;

@@ -80,6 +80,7 @@ class Planner {
 
   // Robots: planner_robots.cpp
   void stand_at(RobotRecord& r, const model::Joints& q, Instant now, Decisions& out, bool escaped = false);
+  void put_following_back(RobotRecord& r);
   void put_back(RobotRecord& r, model::Reason why, const std::string& text, Decisions& out);
   void begin(RobotRecord& r, const StartInterval& start, Decisions& out);
   [[nodiscard]] static std::optional<model::ExecutionReported> unreported_outcome(const RobotRecord& r, Instant now);

@@ -159,6 +159,10 @@ bool Planner::cancel(RobotRecord& r, const model::CommandId& id, Decisions& out)
     publish(status, out);
     return true;
   }
+  if (r.following && r.following->command.status.id == id) {
+    put_following_back(r);
+    return cancel(r, id, out);
+  }
   if (!r.committed || r.committed->command.status.id != id || r.committed->phase == Commitment::Phase::started) return false;
   if (r.committed->phase == Commitment::Phase::held) {
     const bool by_client = r.committed->command.origin == QueuedCommand::Origin::client;
@@ -212,6 +216,7 @@ Decisions Planner::on(const model::StopRequested& event, Instant now) {
     return out;
   }
   RobotRecord& r = robots_[*index];
+  if (r.following) put_following_back(r);
   std::size_t given_up = r.queue.size();
   drop_escapes(r, out);
   while (!r.queue.empty()) cancel(r, model::CommandId{r.queue.back().status.id}, out);

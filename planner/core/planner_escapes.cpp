@@ -57,7 +57,7 @@ bool Planner::make_room(Instant now, Decisions& out) {
 
 EscapeView Planner::escape_view(const RobotRecord& r, Instant now) const {
   EscapeView view;
-  view.now = r.as_neighbour(index_of(r), now);
+  r.add_as_neighbour(index_of(r), now, view.seen);
   if (r.lost()) {
     view.immovable = r.foreign ? "it moves although nobody told it to" : "it is not heard from";
   } else if (!r.ready) {
@@ -80,7 +80,7 @@ bool Planner::make_room_for(RobotRecord& r, Instant now, Decisions& out) {
   const QueuedCommand& waiting = *r.next();
   const Candidate served = candidate_of(r, waiting.motion);
   EscapeSearch search{*cell_, std::move(views), *strategy_, timing_at(now), maps_};
-  auto plan = search.make_room(served);
+  auto plan = search.make_room(served, waiting.request);
   if (!plan) {
     if (all_stand()) warn(r, std::move(plan.error()));
     return false;
@@ -102,8 +102,9 @@ bool Planner::make_room_for(RobotRecord& r, Instant now, Decisions& out) {
     b.way_back.push_back(undoing(e.motion->motion()));
     b.escapes.push_front(std::move(escape));
     commit_next(b, candidate_of(b, e.motion), std::move(e.assessment), now + options_.lead, out);
-    b.committed->command.status.text = fmt::format("{} goes {} to make room for {}", b.robot->name.str(), to_string(e.way), serves.str());
-    publish(b.committed->command.status, out);
+    CommandStatus& status = b.committed->command.status;
+    status.text = fmt::format("{} goes {} to make room for {}", b.robot->name.str(), to_string(e.way), serves.str());
+    publish(status, out);
     rejudge_queue(b, out);
   }
   plan->served.reason = Reason::escape;

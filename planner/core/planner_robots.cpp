@@ -54,7 +54,22 @@ void Planner::stand_at(RobotRecord& r, const model::Joints& q, Instant now, Deci
   rejudge_queue(r, out);
 }
 
+/// What was to follow waits again: it was decided for a place the robot may not come to.
+void Planner::put_following_back(RobotRecord& r) {
+  QueuedCommand command = std::move(r.following->command);
+  r.following.reset();
+  ++revision_;
+  command.status.state = CommandState::queued;
+  command.status.reason = Reason::none;
+  command.status.text.clear();
+  command.status.start.reset();
+  command.status.end.reset();
+  command.status.conflicts.clear();
+  r.queue.push_front(std::move(command));
+}
+
 void Planner::put_back(RobotRecord& r, Reason why, const std::string& text, Decisions& out) {
+  if (r.following) put_following_back(r);
   QueuedCommand command = std::move(r.committed->command);
   r.committed.reset();
   command.status.start.reset();
@@ -81,7 +96,9 @@ void Planner::put_back(RobotRecord& r, Reason why, const std::string& text, Deci
 void Planner::revoke_dependents(model::RobotIndex robot, Decisions& out) {
   for (model::RobotIndex i = 0; i < robots_.size(); ++i) {
     RobotRecord& r = robots_[i];
-    if (i == robot || !r.committed || r.committed->phase == Commitment::Phase::started) continue;
+    if (i == robot || !r.committed) continue;
+    if (r.following) put_following_back(r);
+    if (r.committed->phase == Commitment::Phase::started) continue;
     const SampledMotionPtr theirs = robots_[robot].committed ? robots_[robot].committed->command.motion : robots_[robot].standing;
     const bool meets = robots_[robot].lost() ? enters_reach(*r.committed->command.motion, *robots_[robot].robot)
                                              : !maps_.get(r.committed->command.motion, theirs).blocked.empty();
@@ -229,7 +246,9 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
         r.trail.clear();
       }
       r.known_at = std::max(r.known_at, std::min(event.at, now));
-      r.committed.reset();
+      if (r.following && !arrived) put_following_back(r);
+      r.committed = std::move(r.following);
+      r.following.reset();
       stand_at(r, arrived ? promised : event.joints, now, out, origin != QueuedCommand::Origin::client);
       if (!arrived) revoke_dependents(*index, out);
       break;
@@ -262,6 +281,7 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
       r.known_at = std::max(r.known_at, std::min(event.at, now));
       r.way_back.clear();
       r.trail.clear();
+      if (r.following) put_following_back(r);
       r.committed.reset();
       stand_at(r, event.joints, now, out);
       revoke_dependents(*index, out);

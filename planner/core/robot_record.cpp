@@ -3,6 +3,7 @@
 namespace interlace::core {
 
 const model::Joints& RobotRecord::joints_after_motion() const {
+  if (following) return following->command.motion->motion().to();
   return committed ? committed->command.motion->motion().to() : standing->motion().to();
 }
 
@@ -11,19 +12,23 @@ const model::Joints& RobotRecord::joints_at_end() const {
   return escapes.empty() ? joints_after_motion() : escapes.back().motion->motion().to();
 }
 
-Neighbour RobotRecord::as_neighbour(model::RobotIndex index, Instant now) const {
+void RobotRecord::add_as_neighbour(model::RobotIndex index, Instant now, std::vector<Neighbour>& out) const {
   Neighbour n;
   n.robot = index;
   n.lost = lost();
-  n.motion = committed ? committed->command.motion : standing;
-  if (committed) {
+  n.motion = standing;
+  const auto add = [&](const Commitment& c) {
+    n.motion = c.command.motion;
     n.committed = true;
-    n.started = committed->phase == Commitment::Phase::started;
-    n.start_from = committed->start_from;
-    n.start_until = committed->start_until;
-    n.overdue = !n.started && committed->phase == Commitment::Phase::dispatched && now > committed->start_until;
-  }
-  return n;
+    n.started = c.phase == Commitment::Phase::started;
+    n.start_from = c.start_from;
+    n.start_until = c.start_until;
+    n.overdue = !n.started && c.phase == Commitment::Phase::dispatched && now > c.start_until;
+    out.push_back(n);
+  };
+  if (!committed) out.push_back(n);
+  if (committed) add(*committed);
+  if (following) add(*following);
 }
 
 }  // namespace interlace::core

@@ -58,7 +58,8 @@ struct RobotRecord {
   std::deque<model::MotionRequest> trail;       ///< undoes its last motions, the newest first
   std::vector<model::RobotIndex> blockers;      ///< that leave its next command no start, as last assessed
   std::uint64_t room_sought = 0;                ///< revision of the scene for which room for its next command was sought in vain
-  std::optional<Commitment> committed;          ///< at most one at a time
+  std::optional<Commitment> committed;          ///< what it does now or next
+  std::optional<Commitment> following;          ///< what it does after that; only after an escape of its own, decided together with it
   std::uint64_t last_serial = 0;
   std::uint64_t last_started = 0;  ///< serial of the newest commitment that began
   Instant ready_since{};           ///< since when the head of the queue could have gone
@@ -76,8 +77,12 @@ struct RobotRecord {
   /// Posture the robot will have when what it is doing is done [rad].
   [[nodiscard]] const model::Joints& joints_after_motion() const;
 
-  /// As its neighbours have to see it at `now`.
-  [[nodiscard]] Neighbour as_neighbour(model::RobotIndex index, Instant now) const;
+  /// As its neighbours have to see it at `now`: one entry, or two when something follows what it is committed to. Each stands before and
+  /// after its motion, which is more than true of the two together, and safe.
+  void add_as_neighbour(model::RobotIndex index, Instant now, std::vector<Neighbour>& out) const;
+
+  /// Serial of the last thing it is committed to; it is committed.
+  [[nodiscard]] std::uint64_t last_committed() const { return following ? following->serial : committed->serial; }
 };
 
 }  // namespace interlace::core

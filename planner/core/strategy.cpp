@@ -108,6 +108,7 @@ class Acm final : public Event {
     s.rules.six_directions_only = true;
     s.rules.brake_after_area = true;
     s.rules.cascade = 1;
+    s.rules.step_aside = false;
     s.rules.keep_next = false;
     return s;
   }

@@ -73,6 +73,7 @@ struct EscapeRules {
   bool six_directions_only = false;  ///< the dissertation's: no retreat, no home pose
   bool brake_after_area = false;     ///< the dissertation's real goal: braking begins where the collision area ends
   int cascade = 3;                   ///< an escape may itself need room: how deep that goes; 1: not at all
+  bool step_aside = true;            ///< the commanded robot may go out of the way of those that are in its own
   bool keep_next = true;             ///< prefer goals from which the robot's next command can be carried out
 };
 
