@@ -39,9 +39,15 @@ std::optional<double> first_gap(std::vector<std::pair<double, double>> blocked, 
 
 }  // namespace
 
-EscapeSearch::EscapeSearch(const model::Cell& cell, std::vector<EscapeView> robots, const Strategy& strategy, const Timing& timing,
-                           MapStore& maps)
-    : cell_(cell), robots_(std::move(robots)), strategy_(strategy), timing_(timing), maps_(maps), rules_(strategy.service().rules) {}
+EscapeSearch::EscapeSearch(const model::Cell& cell, const Neighbourhood& neighbourhood, std::vector<EscapeView> robots,
+                           const Strategy& strategy, const Timing& timing, MapStore& maps)
+    : cell_(cell),
+      neighbourhood_(neighbourhood),
+      robots_(std::move(robots)),
+      strategy_(strategy),
+      timing_(timing),
+      maps_(maps),
+      rules_(strategy.service().rules) {}
 
 model::Result<EscapePlan, EscapeRefusals> EscapeSearch::make_room(const Candidate& candidate, const model::MotionRequest& request) {
   PlannedMotion served;
@@ -49,62 +55,70 @@ model::Result<EscapePlan, EscapeRefusals> EscapeSearch::make_room(const Candidat
   served.request = request;
   served.motion = candidate.motion;
   served.tolerance = candidate.tolerance;
-  earliest_served_ = timing_.earliest;
-  if (auto plan = plainest_plan(served)) return std::move(*plan);
+  const auto planned = [&] {
+    EscapePlan plan;
+    plan.served = std::move(plan_.back().assessment);
+    plan_.pop_back();
+    plan.escapes = std::move(plan_);
+    return plan;
+  };
+  if (plainest([&] { return serve(served, 0, [] { return true; }); })) return planned();
   EscapeRefusals why = std::move(refusals_);
-  if (rules_.step_aside) {
-    if (auto plan = plan_stepping_aside(served)) return std::move(*plan);
-  }
+  if (rules_.step_aside && step_aside_and_serve(served)) return planned();
   return model::unexpected(std::move(why));
 }
 
-/// No cascades and the robots' own next commands still possible from where they go, if that can be had; less and less plain otherwise.
-std::optional<EscapePlan> EscapeSearch::plainest_plan(const PlannedMotion& served) {
+/// Calls `attempt` for plain searches first: no cascades, and the robots' own next commands still possible from where they go. Then for
+/// less and less plain ones, until it succeeds.
+bool EscapeSearch::plainest(const Attempt& attempt) {
   budget_ = kWaysPerSearch;
   EscapeRefusals first;
   for (deepest_ = 1; deepest_ <= rules_.cascade; ++deepest_) {
     for (keep_next_ = rules_.keep_next;; keep_next_ = false) {
       refusals_.clear();
-      if (serve(served, 0, [] { return true; })) {
-        EscapePlan plan;
-        plan.served = std::move(plan_.back().assessment);
-        plan_.pop_back();
-        plan.escapes = std::move(plan_);
-        return plan;
-      }
+      if (attempt()) return true;
       if (first.empty()) first = std::move(refusals_);
       if (!keep_next_) break;
     }
   }
   refusals_ = std::move(first);
-  return std::nullopt;
+  return false;
 }
 
 /// The commanded robot may itself stand where the others would have to pass. It goes home, or back where it came from, and its command
 /// is carried out from there.
-std::optional<EscapePlan> EscapeSearch::plan_stepping_aside(const PlannedMotion& served) {
+bool EscapeSearch::step_aside_and_serve(const PlannedMotion& served) {
   const EscapeView& view = robots_[served.robot];
-  std::vector<std::pair<EscapeWay, model::MotionRequest>> places{{EscapeWay::home, view.home}};
+  std::vector<std::pair<EscapeWay, model::MotionRequest>> places;
+  for (const model::MotionRequest& home : view.home) places.emplace_back(EscapeWay::home, home);
   for (const model::MotionRequest& back : view.trail) places.emplace_back(EscapeWay::retreat, back);
   for (const auto& [way, request] : places) {
     auto aside = admit(cell_, served.robot, view.motion()->motion().to(), request);
     if (!aside || (*aside)->motion().duration() <= 0) continue;
     auto from_there = admit(cell_, served.robot, (*aside)->motion().to(), served.request);
     if (!from_there) continue;
-    PlannedMotion step{served.robot, way, request, std::move(*aside), served.tolerance, {}};
-    step.assessment = strategy_.assess({step.robot, step.motion, step.tolerance}, neighbours_of(step.robot), timing_, maps_);
-    if (!step.assessment.start) continue;
-    const model::Motion& motion = step.motion->motion();
-    earliest_served_ = *step.assessment.start + step.tolerance + timing_.confirm +
-                       model::from_seconds(motion.duration() * (1 + motion.robot().controller.speed_error));
+    PlannedMotion step = served;
+    step.way = way;
+    step.request = request;
+    step.motion = std::move(*aside);
     PlannedMotion then = served;
     then.motion = std::move(*from_there);
-    commit(std::move(step));
-    auto plan = plainest_plan(then);
-    if (plan) return plan;
-    take_back();
+    const auto serve_then = [&] {
+      const PlannedMotion& stepped = plan_.back();
+      const model::Motion& motion = stepped.motion->motion();
+      then.not_before = *stepped.assessment.start + stepped.tolerance + timing_.confirm +
+                        model::from_seconds(motion.duration() * (1 + motion.robot().controller.speed_error));
+      protected_.pop_back();
+      const bool done = serve(then, 0, [] { return true; });
+      protected_.push_back(then.motion);
+      return done;
+    };
+    protected_.push_back(then.motion);  // whoever goes out of the way of the step should be out of that of the command too
+    const bool done = plainest([&] { return serve(step, 0, serve_then); });
+    protected_.pop_back();
+    if (done) return true;
   }
-  return std::nullopt;
+  return false;
 }
 
 /// From here on the motion is a fact for all others.
@@ -129,9 +143,9 @@ void EscapeSearch::take_back() {
 
 /// Commits `motion` in the plan when it has a start, else clears its blockers out of the way one by one; then goes on with `then`.
 /// Whatever was tried in vain is taken back.
-bool EscapeSearch::serve(PlannedMotion motion, int depth, const Goal& then) {
+bool EscapeSearch::serve(PlannedMotion motion, int depth, const Attempt& then) {
   Timing timing = timing_;
-  if (depth == 0) timing.earliest = earliest_served_;
+  timing.earliest = std::max(timing.earliest, motion.not_before);
   motion.assessment = strategy_.assess({motion.robot, motion.motion, motion.tolerance}, neighbours_of(motion.robot), timing, maps_);
   if (motion.assessment.start) {
     commit(std::move(motion));
@@ -171,7 +185,7 @@ Vector3 EscapeSearch::tcp_of(RobotIndex robot) const {
   return robots_[robot].motion()->motion().tcp(robots_[robot].motion()->motion().duration()).translation();
 }
 
-bool EscapeSearch::clear_by(RobotIndex blocker, const PlannedMotion& motion, int depth, const Goal& then) {
+bool EscapeSearch::clear_by(RobotIndex blocker, const PlannedMotion& motion, int depth, const Attempt& then) {
   protected_.push_back(motion.motion);
   bool cleared = false;
   for (const Way& way : ways_of(blocker, motion.motion)) {
@@ -217,7 +231,7 @@ const std::vector<EscapeSearch::Way>& EscapeSearch::ways_of(RobotIndex robot, co
     }
   };
   for (const model::MotionRequest& back : view.trail) add(EscapeWay::retreat, back);
-  add(EscapeWay::home, view.home);
+  for (const model::MotionRequest& home : view.home) add(EscapeWay::home, home);
   return ways;
 }
 
@@ -282,9 +296,9 @@ std::optional<double> EscapeSearch::first_clear(const SampledMotionPtr& full) {
 /// How far the whole way is clear of all robots that stand [m]: the dissertation's safe reachable goal (6.3.3).
 double EscapeSearch::safe_length(RobotIndex robot, const SampledMotionPtr& full) {
   double first = kNever;
-  for (RobotIndex other = 0; other < robots_.size(); ++other) {
+  for (const RobotIndex other : neighbourhood_.of(robot)) {
     const Neighbour& n = robots_[other].seen.back();
-    if (other == robot || n.committed || n.lost) continue;
+    if (n.committed || n.lost) continue;
     for (const BlockedCell& c : maps_.get(full, n.motion).blocked) first = std::min(first, c.tau0);
   }
   return first == kNever ? full->motion().length(full->motion().duration()) : full->motion().length(first - cell_.planning.resolution);
@@ -292,8 +306,8 @@ double EscapeSearch::safe_length(RobotIndex robot, const SampledMotionPtr& full)
 
 std::vector<Neighbour> EscapeSearch::neighbours_of(RobotIndex robot) const {
   std::vector<Neighbour> neighbours;
-  for (RobotIndex other = 0; other < robots_.size(); ++other) {
-    if (other != robot) neighbours.insert(neighbours.end(), robots_[other].seen.begin(), robots_[other].seen.end());
+  for (const RobotIndex other : neighbourhood_.of(robot)) {
+    neighbours.insert(neighbours.end(), robots_[other].seen.begin(), robots_[other].seen.end());
   }
   return neighbours;
 }

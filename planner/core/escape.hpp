@@ -5,17 +5,18 @@
 #include <vector>
 
 #include "planner/core/escape_goal.hpp"
+#include "planner/core/neighbourhood.hpp"
 #include "planner/core/strategy.hpp"
 
 namespace interlace::core {
 
 /// A robot as the search for escapes has to see it.
 struct EscapeView {
-  std::vector<Neighbour> seen;              ///< as everyone sees it: one entry for each motion, or where it stands
-  std::string immovable;                    ///< why it cannot be sent anywhere; empty: it can
-  Duration tolerance{};                     ///< its latest start after the planned one
-  std::vector<model::MotionRequest> trail;  ///< back along the path it came, newest place first
-  model::MotionRequest home;
+  std::vector<Neighbour> seen;                 ///< as everyone sees it: one entry for each motion, or where it stands
+  std::string immovable;                       ///< why it cannot be sent anywhere; empty: it can
+  Duration tolerance{};                        ///< its latest start after the planned one
+  std::vector<model::MotionRequest> trail;     ///< back along the path it came, newest place first
+  std::vector<model::MotionRequest> home;      ///< to its home pose, straight and, where the model allows it, by its joints
   const model::MotionRequest* next = nullptr;  ///< first command that waits for it
 
   [[nodiscard]] bool committed() const { return seen.back().committed; }
@@ -29,6 +30,7 @@ struct PlannedMotion {
   model::MotionRequest request;
   SampledMotionPtr motion;
   Duration tolerance{};
+  Instant not_before{};  ///< while its robot still does something else
   Assessment assessment;
 };
 
@@ -47,7 +49,8 @@ using EscapeRefusals = std::vector<model::EscapeRefusal>;
 /// One object serves one search. Pure. Source: dissertation sections 5.2 and 6.3, DESIGN section 6.
 class EscapeSearch {
  public:
-  EscapeSearch(const model::Cell& cell, std::vector<EscapeView> robots, const Strategy& strategy, const Timing& timing, MapStore& maps);
+  EscapeSearch(const model::Cell& cell, const Neighbourhood& neighbourhood, std::vector<EscapeView> robots, const Strategy& strategy,
+               const Timing& timing, MapStore& maps);
 
   /// Room for `served`, which has no start as things are and was made from `request`. Where nothing else helps its robot steps aside first
   /// itself: then the plan's first escape is its own, and what is served starts from there.
@@ -59,14 +62,14 @@ class EscapeSearch {
     RequestedMotion full;  // to the reachable goal
     std::string why;       // there is none
   };
-  using Goal = std::function<bool()>;
+  using Attempt = std::function<bool()>;
 
-  std::optional<EscapePlan> plainest_plan(const PlannedMotion& served);
-  std::optional<EscapePlan> plan_stepping_aside(const PlannedMotion& served);
+  bool plainest(const Attempt& attempt);
+  bool step_aside_and_serve(const PlannedMotion& served);
   void commit(PlannedMotion motion);
   void take_back();
-  bool serve(PlannedMotion motion, int depth, const Goal& then);
-  bool clear_by(model::RobotIndex blocker, const PlannedMotion& motion, int depth, const Goal& then);
+  bool serve(PlannedMotion motion, int depth, const Attempt& then);
+  bool clear_by(model::RobotIndex blocker, const PlannedMotion& motion, int depth, const Attempt& then);
   const std::vector<Way>& ways_of(model::RobotIndex robot, const SampledMotionPtr& served);
   RequestedMotion out_of_the_way(model::RobotIndex robot, const Way& way);
   const RequestedMotion& cut(model::RobotIndex robot, const Way& way, double length);
@@ -77,6 +80,7 @@ class EscapeSearch {
   void refuse(model::RobotIndex robot, model::EscapeWay way, std::string text);
 
   const model::Cell& cell_;
+  const Neighbourhood& neighbourhood_;
   std::vector<EscapeView> robots_;
   const Strategy& strategy_;
   Timing timing_;
@@ -87,7 +91,6 @@ class EscapeSearch {
   int budget_ = 0;
   std::vector<PlannedMotion> plan_;             // decided so far, in order
   std::vector<std::vector<Neighbour>> before_;  // how the robots of the plan were seen before
-  Instant earliest_served_{};                   // start of what is served: not while its robot still steps aside
   std::vector<SampledMotionPtr> protected_;     // motions that room is being made for, outermost first
   std::map<std::pair<model::RobotIndex, std::uint64_t>, std::vector<Way>> ways_;
   std::map<std::pair<const SampledMotion*, long>, RequestedMotion> cut_;

@@ -19,6 +19,7 @@ Planner::Planner(std::shared_ptr<const model::Cell> cell, PlannerOptions options
     : cell_(std::move(cell)),
       options_(std::move(options)),
       strategy_(make_strategy(options_.strategy, *cell_)),
+      neighbourhood_(*cell_),
       maps_(cell_->planning.margin, options_.stopwatch) {
   if (!strategy_) throw std::invalid_argument(fmt::format("unknown strategy \"{}\"", options_.strategy));
   robots_.resize(cell_->robots.size());
@@ -54,13 +55,15 @@ void Planner::schedule(Instant now, Decisions& out) {
 std::vector<RobotRecord*> Planner::candidates() {
   std::vector<RobotRecord*> result;
   for (RobotRecord& r : robots_) {
-    if (!r.committed && r.next()) result.push_back(&r);
+    const bool held_up = clearing_ && clearing_->around[index_of(r)] && clearing_->robot != index_of(r);
+    if (!r.committed && r.next() && !held_up) result.push_back(&r);
   }
   std::stable_sort(result.begin(), result.end(), [](const auto* a, const auto* b) { return a->ready_since < b->ready_since; });
   return result;
 }
 
 void Planner::serve_whoever_can(Instant now, Decisions& out) {
+  check_clearing();
   const auto one_starts = [&] {
     for (RobotRecord* r : candidates()) {
       if (try_commit(*r, now, out)) return true;
@@ -100,6 +103,13 @@ Candidate Planner::candidate_of(const RobotRecord& r, const SampledMotionPtr& mo
   return {index_of(r), motion, options_.start_tolerance + model::from_seconds(r.robot->controller.latest_start())};
 }
 
+/// Those that `r` can ever meet; nobody else is looked at (6.2.3).
+std::vector<Neighbour> Planner::neighbours_of(const RobotRecord& r, Instant now) const {
+  std::vector<Neighbour> neighbours;
+  for (const model::RobotIndex other : neighbourhood_.of(index_of(r))) robots_[other].add_as_neighbour(other, now, neighbours);
+  return neighbours;
+}
+
 bool Planner::try_commit(RobotRecord& r, Instant now, Decisions& out) {
   QueuedCommand& head = *r.next();
   r.blockers.clear();
@@ -114,11 +124,7 @@ bool Planner::try_commit(RobotRecord& r, Instant now, Decisions& out) {
     return false;
   }
   const Candidate candidate = candidate_of(r, head.motion);
-  std::vector<Neighbour> neighbours;
-  for (RobotRecord& other : robots_) {
-    if (&other != &r) other.add_as_neighbour(index_of(other), now, neighbours);
-  }
-  Assessment a = strategy_->assess(candidate, neighbours, timing_at(now), maps_);
+  Assessment a = strategy_->assess(candidate, neighbours_of(r, now), timing_at(now), maps_);
   if (a.start) {
     commit_next(r, candidate, std::move(a), r.ready_since + options_.lead, out);
     return true;
@@ -161,6 +167,7 @@ void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment
   status.conflicts = std::move(a.conflicts);
   status.refusals.clear();
   publish(status, out);
+  if (clearing_ && command.status.id == clearing_->command) clearing_.reset();
   if (command.origin == QueuedCommand::Origin::client) r.way_back.clear();  // where it goes now is where its queue is judged from
   c.command = std::move(command);
   (r.committed ? r.following : r.committed) = std::move(c);

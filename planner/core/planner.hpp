@@ -11,6 +11,7 @@
 #include "common/model/cell.hpp"
 #include "common/model/messages.hpp"
 #include "planner/core/escape.hpp"
+#include "planner/core/neighbourhood.hpp"
 #include "planner/core/robot_record.hpp"
 #include "planner/core/wait_graph.hpp"
 
@@ -94,6 +95,7 @@ class Planner {
   void serve_in_turn(Instant now, Decisions& out);
   bool try_commit_when_all_stand(RobotRecord& r, Instant now, Decisions& out);
   [[nodiscard]] std::vector<RobotRecord*> candidates();
+  [[nodiscard]] std::vector<Neighbour> neighbours_of(const RobotRecord& r, Instant now) const;
   [[nodiscard]] Candidate candidate_of(const RobotRecord& r, const SampledMotionPtr& motion) const;
   [[nodiscard]] Timing timing_at(Instant now) const { return {now + options_.lead, options_.confirm}; }
   bool try_commit(RobotRecord& r, Instant now, Decisions& out);
@@ -107,6 +109,14 @@ class Planner {
   [[nodiscard]] WaitGraph wait_graph() const;
   bool make_room(Instant now, Decisions& out);
   bool make_room_for(RobotRecord& r, Instant now, Decisions& out);
+  bool go_on_clearing(Instant now, Decisions& out);
+  bool send_home(RobotRecord& r, Instant now, Decisions& out);
+  bool goes_home(RobotRecord& b, bool with_escapes, Instant now, Decisions& out);
+  [[nodiscard]] EscapeSearch escape_search(Instant now);
+  void check_clearing();
+  void commit_escape(PlannedMotion escape, const model::CommandId& serves, Instant now, Decisions& out);
+  [[nodiscard]] static const model::CommandId& served_by(const QueuedCommand& command);
+  [[nodiscard]] std::vector<bool> around(const RobotRecord& r) const;
   [[nodiscard]] EscapeView escape_view(const RobotRecord& r, Instant now) const;
   void warn(RobotRecord& r, EscapeRefusals refusals);
   [[nodiscard]] bool all_stand() const;
@@ -115,6 +125,7 @@ class Planner {
   std::shared_ptr<const model::Cell> cell_;
   PlannerOptions options_;
   std::unique_ptr<Strategy> strategy_;
+  Neighbourhood neighbourhood_;
   MapStore maps_;
   std::vector<RobotRecord> robots_;
   std::unordered_map<model::CommandId, model::CommandStatus> known_;  // newest status of every command still answered by id
@@ -122,6 +133,14 @@ class Planner {
   std::uint64_t accepted_ = 0, rejected_ = 0, completed_ = 0;
   std::uint64_t revision_ = 1;  // of all that a search for room depends on
   std::uint64_t last_escape_ = 0;
+  /// The space around a command that could not be let through at one stroke is being cleared; only it starts there meanwhile.
+  struct Clearing {
+    model::RobotIndex robot;
+    model::CommandId command;
+    std::vector<bool> around;
+    int steps = 0;
+  };
+  std::optional<Clearing> clearing_;
   std::optional<model::RobotIndex> deadlocked_;  // served in turn: for whom all others are held up
   bool escaping_ = false;                        // served in turn: escapes and what they serve are under way
 };

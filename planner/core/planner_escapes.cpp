@@ -36,6 +36,7 @@ bool Planner::all_stand() const {
 /// Resolves one deadlock, if there is one that can be resolved. True when something was committed.
 bool Planner::make_room(Instant now, Decisions& out) {
   if (!may_escape()) return false;
+  if (clearing_) return go_on_clearing(now, out);
   const WaitGraph graph = wait_graph();
   std::vector<RobotRecord*> deadlocked;
   for (RobotRecord* r : candidates()) {
@@ -52,7 +53,92 @@ bool Planner::make_room(Instant now, Decisions& out) {
   for (RobotRecord* r : deadlocked) {
     if (r->room_sought != revision_ && make_room_for(*r, now, out)) return true;
   }
+  // Nobody can be let through at one stroke. The one who waits longest at the root of it gets the space around it cleared.
+  for (RobotRecord* r : deadlocked) {
+    if (r->clearing_given_up == revision_ || !strategy_->service().rules.step_aside) continue;
+    clearing_ = Clearing{index_of(*r), served_by(*r->next()), around(*r)};
+    if (go_on_clearing(now, out)) return true;
+    if (clearing_) return false;  // waits for those around to stand
+  }
   return false;
+}
+
+/// What the command, or the way back that leads to it, is to be done for.
+const model::CommandId& Planner::served_by(const QueuedCommand& command) {
+  return command.origin == QueuedCommand::Origin::client ? command.status.id : command.status.serves;
+}
+
+/// All that can meet `r` or somebody who can.
+std::vector<bool> Planner::around(const RobotRecord& r) const {
+  std::vector<bool> near(robots_.size(), false);
+  near[index_of(r)] = true;
+  for (const model::RobotIndex a : neighbourhood_.of(index_of(r))) {
+    near[a] = true;
+    for (const model::RobotIndex b : neighbourhood_.of(a)) near[b] = true;
+  }
+  return near;
+}
+
+/// One step of clearing: everybody around stands; whoever can goes home, until the command that all this is for can be let through.
+bool Planner::go_on_clearing(Instant now, Decisions& out) {
+  RobotRecord& r = robots_[clearing_->robot];
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    if (clearing_->around[i] && robots_[i].committed) return false;
+  }
+  const int most = 2 * static_cast<int>(std::count(clearing_->around.begin(), clearing_->around.end(), true));
+  if (make_room_for(r, now, out) || (clearing_->steps++ < most && send_home(r, now, out))) return true;
+  r.clearing_given_up = revision_;
+  clearing_.reset();
+  return false;
+}
+
+/// The command that is cleared for may have been given up, its robot lost.
+void Planner::check_clearing() {
+  if (!clearing_) return;
+  const RobotRecord& r = robots_[clearing_->robot];
+  if (!r.next() || served_by(*r.next()) != clearing_->command || r.lost() || !r.ready) clearing_.reset();
+}
+
+/// Everybody around `r` who can go home does; when nobody can, the first for whom others can make room; `r` itself last.
+bool Planner::send_home(RobotRecord& r, Instant now, Decisions& out) {
+  std::vector<RobotRecord*> others;
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    if (clearing_->around[i] && &robots_[i] != &r) others.push_back(&robots_[i]);
+  }
+  bool progress = false;
+  for (RobotRecord* b : others) progress = goes_home(*b, false, now, out) || progress;
+  if (progress || goes_home(r, false, now, out)) return true;
+  others.push_back(&r);
+  return std::any_of(others.begin(), others.end(), [&](RobotRecord* b) { return goes_home(*b, true, now, out); });
+}
+
+bool Planner::goes_home(RobotRecord& b, bool with_escapes, Instant now, Decisions& out) {
+  const EscapeView view = escape_view(b, now);
+  if (!view.immovable.empty()) return false;
+  const model::CommandId serves = clearing_->command;
+  for (const model::MotionRequest& home : view.home) {
+    auto motion = admit(*cell_, index_of(b), b.standing->motion().to(), home);
+    if (!motion || (*motion)->motion().duration() <= 0) continue;
+    PlannedMotion way{index_of(b), model::EscapeWay::home, home, std::move(*motion), view.tolerance, {}, {}};
+    const Candidate candidate = candidate_of(b, way.motion);
+    way.assessment = strategy_->assess(candidate, neighbours_of(b, now), timing_at(now), maps_);
+    if (!way.assessment.start && with_escapes) {
+      auto plan = escape_search(now).make_room(candidate, home);
+      if (!plan) continue;
+      for (PlannedMotion& e : plan->escapes) commit_escape(std::move(e), serves, now, out);
+      way.assessment = std::move(plan->served);
+    }
+    if (!way.assessment.start) continue;
+    commit_escape(std::move(way), serves, now, out);
+    return true;
+  }
+  return false;
+}
+
+EscapeSearch Planner::escape_search(Instant now) {
+  std::vector<EscapeView> views;
+  for (const RobotRecord& other : robots_) views.push_back(escape_view(other, now));
+  return {*cell_, neighbourhood_, std::move(views), *strategy_, timing_at(now), maps_};
 }
 
 EscapeView Planner::escape_view(const RobotRecord& r, Instant now) const {
@@ -65,8 +151,13 @@ EscapeView Planner::escape_view(const RobotRecord& r, Instant now) const {
   }
   view.tolerance = candidate_of(r, nullptr).tolerance;
   view.trail.assign(r.trail.begin(), r.trail.end());
-  const model::Pose X_WT = r.robot->X_WB * model::tcp_pose(r.robot->model, r.robot->home);
-  view.home.target = model::LinearTarget{X_WT};
+  model::MotionRequest home;
+  home.target = model::LinearTarget{r.robot->X_WB * model::tcp_pose(r.robot->model, r.robot->home)};
+  view.home.push_back(home);
+  if (r.robot->model.joints.velocity && r.robot->model.joints.acceleration) {
+    home.target = model::JointTarget{r.robot->home};
+    view.home.push_back(home);
+  }
   if (!r.queue.empty()) view.next = &r.queue.front().request;
   return view;
 }
@@ -75,41 +166,40 @@ EscapeView Planner::escape_view(const RobotRecord& r, Instant now) const {
 bool Planner::make_room_for(RobotRecord& r, Instant now, Decisions& out) {
   if (!may_escape() || r.lost() || !r.ready || r.room_sought == revision_) return false;
   r.room_sought = revision_;
-  std::vector<EscapeView> views;
-  for (const RobotRecord& other : robots_) views.push_back(escape_view(other, now));
   const QueuedCommand& waiting = *r.next();
   const Candidate served = candidate_of(r, waiting.motion);
-  EscapeSearch search{*cell_, std::move(views), *strategy_, timing_at(now), maps_};
-  auto plan = search.make_room(served, waiting.request);
+  auto plan = escape_search(now).make_room(served, waiting.request);
   if (!plan) {
     if (all_stand()) warn(r, std::move(plan.error()));
     return false;
   }
-  // A way back makes no room for itself: what it leads to is what the escapes serve.
-  const model::CommandId serves = waiting.origin == QueuedCommand::Origin::client ? waiting.status.id : waiting.status.serves;
-  for (PlannedMotion& e : plan->escapes) {
-    RobotRecord& b = robots_[e.robot];
-    QueuedCommand escape;
-    escape.origin = QueuedCommand::Origin::escape;
-    escape.status.id = model::CommandId{options_.escape_prefix + std::to_string(++last_escape_)};
-    escape.status.robot = b.robot->name;
-    escape.status.escape = true;
-    escape.status.serves = serves;
-    escape.status.submitted = now;
-    escape.request = e.request;
-    escape.motion = e.motion;
-    e.assessment.reason = Reason::escape;
-    b.way_back.push_back(undoing(e.motion->motion()));
-    b.escapes.push_front(std::move(escape));
-    commit_next(b, candidate_of(b, e.motion), std::move(e.assessment), now + options_.lead, out);
-    CommandStatus& status = b.committed->command.status;
-    status.text = fmt::format("{} goes {} to make room for {}", b.robot->name.str(), to_string(e.way), serves.str());
-    publish(status, out);
-    rejudge_queue(b, out);
-  }
+  const model::CommandId serves = served_by(waiting);
+  for (PlannedMotion& e : plan->escapes) commit_escape(std::move(e), serves, now, out);
   plan->served.reason = Reason::escape;
   commit_next(r, served, std::move(plan->served), r.ready_since + options_.lead, out);
   return true;
+}
+
+/// Makes a planned escape a fact: it goes through its robot's escape queue, ahead of the main queue, which is judged again from its goal.
+void Planner::commit_escape(PlannedMotion e, const model::CommandId& serves, Instant now, Decisions& out) {
+  RobotRecord& b = robots_[e.robot];
+  QueuedCommand escape;
+  escape.origin = QueuedCommand::Origin::escape;
+  escape.status.id = model::CommandId{options_.escape_prefix + std::to_string(++last_escape_)};
+  escape.status.robot = b.robot->name;
+  escape.status.escape = true;
+  escape.status.serves = serves;
+  escape.status.submitted = now;
+  escape.request = e.request;
+  escape.motion = e.motion;
+  e.assessment.reason = Reason::escape;
+  b.way_back.push_back(undoing(e.motion->motion()));
+  b.escapes.push_front(std::move(escape));
+  commit_next(b, candidate_of(b, e.motion), std::move(e.assessment), now + options_.lead, out);
+  CommandStatus& status = b.committed->command.status;
+  status.text = fmt::format("{} goes {} to make room for {}", b.robot->name.str(), to_string(e.way), serves.str());
+  publish(status, out);
+  rejudge_queue(b, out);
 }
 
 /// Nothing helps: says so to people, once, with all that was tried.

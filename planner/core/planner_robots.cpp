@@ -96,7 +96,7 @@ void Planner::put_back(RobotRecord& r, Reason why, const std::string& text, Deci
 void Planner::revoke_dependents(model::RobotIndex robot, Decisions& out) {
   for (model::RobotIndex i = 0; i < robots_.size(); ++i) {
     RobotRecord& r = robots_[i];
-    if (i == robot || !r.committed) continue;
+    if (!r.committed || !neighbourhood_.meet(i, robot)) continue;
     if (r.following) put_following_back(r);
     if (r.committed->phase == Commitment::Phase::started) continue;
     const SampledMotionPtr theirs = robots_[robot].committed ? robots_[robot].committed->command.motion : robots_[robot].standing;

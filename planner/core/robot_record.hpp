@@ -58,6 +58,7 @@ struct RobotRecord {
   std::deque<model::MotionRequest> trail;       ///< undoes its last motions, the newest first
   std::vector<model::RobotIndex> blockers;      ///< that leave its next command no start, as last assessed
   std::uint64_t room_sought = 0;                ///< revision of the scene for which room for its next command was sought in vain
+  std::uint64_t clearing_given_up = 0;          ///< likewise, clearing all space around it
   std::optional<Commitment> committed;          ///< what it does now or next
   std::optional<Commitment> following;          ///< what it does after that; only after an escape of its own, decided together with it
   std::uint64_t last_serial = 0;
