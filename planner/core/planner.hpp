@@ -112,6 +112,9 @@ class Planner {
   bool go_on_clearing(Instant now, Decisions& out);
   bool send_home(RobotRecord& r, Instant now, Decisions& out);
   bool goes_home(RobotRecord& b, bool with_escapes, Instant now, Decisions& out);
+  bool goes_back(RobotRecord& b, Instant now, Decisions& out);
+  bool go_if_clear(RobotRecord& b, model::EscapeWay way, const model::MotionRequest& request, bool with_escapes, Instant now,
+                   Decisions& out);
   [[nodiscard]] EscapeSearch escape_search(Instant now);
   void check_clearing();
   void commit_escape(PlannedMotion escape, const model::CommandId& serves, Instant now, Decisions& out);
@@ -138,6 +141,7 @@ class Planner {
     model::RobotIndex robot;
     model::CommandId command;
     std::vector<bool> around;
+    std::vector<bool> went_back;
     int steps = 0;
   };
   std::optional<Clearing> clearing_;

@@ -56,7 +56,7 @@ bool Planner::make_room(Instant now, Decisions& out) {
   // Nobody can be let through at one stroke. The one who waits longest at the root of it gets the space around it cleared.
   for (RobotRecord* r : deadlocked) {
     if (r->clearing_given_up == revision_ || !strategy_->service().rules.step_aside) continue;
-    clearing_ = Clearing{index_of(*r), served_by(*r->next()), around(*r)};
+    clearing_ = Clearing{index_of(*r), served_by(*r->next()), around(*r), std::vector<bool>(robots_.size(), false)};
     if (go_on_clearing(now, out)) return true;
     if (clearing_) return false;  // waits for those around to stand
   }
@@ -109,30 +109,47 @@ bool Planner::send_home(RobotRecord& r, Instant now, Decisions& out) {
   for (RobotRecord* b : others) progress = goes_home(*b, false, now, out) || progress;
   if (progress || goes_home(r, false, now, out)) return true;
   others.push_back(&r);
-  return std::any_of(others.begin(), others.end(), [&](RobotRecord* b) { return goes_home(*b, true, now, out); });
+  return std::any_of(others.begin(), others.end(), [&](RobotRecord* b) { return goes_home(*b, true, now, out); }) ||
+         std::any_of(others.begin(), others.end(), [&](RobotRecord* b) { return goes_back(*b, now, out); });
+}
+
+/// Back where it came from, once in a clearing: whoever came last into a tangle can leave it the same way.
+bool Planner::goes_back(RobotRecord& b, Instant now, Decisions& out) {
+  const EscapeView view = escape_view(b, now);
+  if (!view.immovable.empty() || clearing_->went_back[index_of(b)]) return false;
+  for (const model::MotionRequest& back : view.trail) {
+    if (!go_if_clear(b, model::EscapeWay::retreat, back, false, now, out)) continue;
+    clearing_->went_back[index_of(b)] = true;
+    return true;
+  }
+  return false;
 }
 
 bool Planner::goes_home(RobotRecord& b, bool with_escapes, Instant now, Decisions& out) {
   const EscapeView view = escape_view(b, now);
   if (!view.immovable.empty()) return false;
+  return std::any_of(view.home.begin(), view.home.end(), [&](const model::MotionRequest& home) {
+    return go_if_clear(b, model::EscapeWay::home, home, with_escapes, now, out);
+  });
+}
+
+/// Sends `b` off for the clearing when its way is clear, or can be made so.
+bool Planner::go_if_clear(RobotRecord& b, model::EscapeWay way, const model::MotionRequest& request, bool with_escapes, Instant now,
+                          Decisions& out) {
+  auto motion = admit(*cell_, index_of(b), b.standing->motion().to(), request);
+  if (!motion || (*motion)->motion().duration() <= 0) return false;
+  const Candidate candidate = candidate_of(b, *motion);
+  Assessment a = strategy_->assess(candidate, neighbours_of(b, now), timing_at(now), maps_);
   const model::CommandId serves = clearing_->command;
-  for (const model::MotionRequest& home : view.home) {
-    auto motion = admit(*cell_, index_of(b), b.standing->motion().to(), home);
-    if (!motion || (*motion)->motion().duration() <= 0) continue;
-    PlannedMotion way{index_of(b), model::EscapeWay::home, home, std::move(*motion), view.tolerance, {}, {}};
-    const Candidate candidate = candidate_of(b, way.motion);
-    way.assessment = strategy_->assess(candidate, neighbours_of(b, now), timing_at(now), maps_);
-    if (!way.assessment.start && with_escapes) {
-      auto plan = escape_search(now).make_room(candidate, home);
-      if (!plan) continue;
+  if (!a.start && with_escapes) {
+    if (auto plan = escape_search(now).make_room(candidate, request)) {
       for (PlannedMotion& e : plan->escapes) commit_escape(std::move(e), serves, now, out);
-      way.assessment = std::move(plan->served);
+      a = std::move(plan->served);
     }
-    if (!way.assessment.start) continue;
-    commit_escape(std::move(way), serves, now, out);
-    return true;
   }
-  return false;
+  if (!a.start || b.committed) return a.start.has_value();
+  commit_escape({index_of(b), way, request, std::move(*motion), candidate.tolerance, {}, std::move(a)}, serves, now, out);
+  return true;
 }
 
 EscapeSearch Planner::escape_search(Instant now) {
