@@ -140,12 +140,12 @@ void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment
   from.pop_front();
   CommandStatus& status = command.status;
   const double delay = model::to_seconds(*a.start - could_start);
-  if (a.conflicts.empty() && delay > 0 && !status.conflicts.empty()) {
+  if (a.conflicts.empty() && delay > 0) {
     // It goes at once now, but it stood waiting before: what kept it is the evidence of its delay.
     a.conflicts = status.conflicts;
     for (model::Conflict& c : a.conflicts) c.until = std::min(c.until, *a.start);
-    if (a.reason == Reason::none) a.reason = Reason::delayed;
   }
+  if (a.reason == Reason::none && delay > 0 && !a.conflicts.empty()) a.reason = Reason::delayed;
   Commitment c;
   c.serial = ++r.last_serial;
   c.start_from = *a.start;
