@@ -1,4 +1,6 @@
 #include <cmath>
+#include <limits>
+#include <ostream>
 #include <set>
 
 #include "tests/support/turnstile.hpp"
@@ -22,6 +24,10 @@ struct Direction {
   model::Pose X_from, X_to, X_blocker;
 };
 
+void PrintTo(const Direction& d, std::ostream* out) {
+  *out << d.way;
+}
+
 class IdleBlockerEscapes : public ::testing::TestWithParam<Direction> {};
 
 TEST_P(IdleBlockerEscapes, AlongTheAxisOfTheNearestFace) {
@@ -30,6 +36,9 @@ TEST_P(IdleBlockerEscapes, AlongTheAxisOfTheNearestFace) {
   const std::size_t commanded = cell->find(model::RobotName{d.commanded}).value();
   start_at(*cell, commanded, d.X_from);
   start_at(*cell, 1 - commanded, d.X_blocker);
+  const model::Robot& robot = cell->robots[commanded];
+  const auto swept = core::swept_cuboid(model::plan_motion(robot, robot.start, line_to(d.X_to)).value());
+  EXPECT_EQ(core::escape_directions(swept, d.X_blocker.translation()).front().unit, d.unit) << "the nearest face lies that way";
   Standoff s{cell};
   s.command(d.commanded, line_to(d.X_to)).run();
   s.expect_safe_and_served();
@@ -54,8 +63,8 @@ INSTANTIATE_TEST_SUITE_P(Standoff, IdleBlockerEscapes,
                                                      pose_mm(150, -100, 500), pose_mm(-50, 0, 500, 0, 0, 45)},
                                            Direction{"PlusY", "+y", Vector3::UnitY(), "r2", pose_mm(350, -300, 450), pose_mm(350, -50, 500),
                                                      pose_mm(250, -50, 500, 0, 90, 45)},
-                                           Direction{"MinusY", "-y", -Vector3::UnitY(), "r1", pose_mm(500, 400, 450), pose_mm(200, 0, 350),
-                                                     pose_mm(400, -100, 100, 0, 0, -90)},
+                                           Direction{"MinusY", "-y", -Vector3::UnitY(), "r1", pose_mm(350, 300, 450), pose_mm(350, 50, 500),
+                                                     pose_mm(250, 50, 500, 0, 90, -45)},
                                            Direction{"PlusZ", "+z", Vector3::UnitZ(), "r1", pose_mm(550, 400, 100), pose_mm(250, -50, 100),
                                                      pose_mm(250, 50, 450, 0, -45, 0)},
                                            Direction{"MinusZ", "-z", -Vector3::UnitZ(), "r1", pose_mm(450, 350, 500), pose_mm(250, 50, 450),
@@ -67,13 +76,23 @@ model::Robot arm_at(const std::string& name, double x, double y, double yaw, con
   return experiment_robot(name, {x / 1e3, y / 1e3, 0}, X_WT, yaw * kPi / 180);
 }
 
-/// Whether `robot`, moving as `motion`, touches `other` standing at `q`: dense samples judged apart from the planner.
-bool touches(const model::Cell& cell, std::size_t robot, const model::Motion& motion, std::size_t other, const model::Joints& q) {
+/// Length [m] of `motion` of `robot` after which it first touches `other` standing at `q`; infinite when it never does. Dense
+/// samples, judged apart from the planner.
+double free_length(const model::Cell& cell, std::size_t robot, const model::Motion& motion, std::size_t other, const model::Joints& q) {
   auto pair = cell;
   pair.robots = {cell.robots[robot], cell.robots[other]};
   sim::TraceCheck check{pair};
-  for (int i = 0; i <= 2000; ++i) check.step(i, {motion.joints(motion.duration() * i / 2000), q});
-  return check.collisions() > 0;
+  constexpr int kSteps = 2000;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double t = motion.duration() * i / kSteps;
+    check.step(t, {motion.joints(t), q});
+    if (check.collisions() > 0) return motion.length(t);
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+bool touches(const model::Cell& cell, std::size_t robot, const model::Motion& motion, std::size_t other, const model::Joints& q) {
+  return std::isfinite(free_length(cell, robot, motion, other, q));
 }
 
 Standoff::Trip trip_of(const Standoff& s, const std::string& id) {
@@ -91,7 +110,7 @@ TEST(Standoff, BlockerNearTheBorder) {
     auto cell = std::make_shared<model::Cell>();
     cell->robots.push_back(arm_at("r1", 0, 500, 0, pose_mm(450, 500, 300)));
     cell->robots.push_back(arm_at("r2", 0, 0, 0, pose_mm(400, 150, 300)));
-    cell->robots.push_back(arm_at("r3", 0, -500, 0, pose_mm(400, -250, 300)));
+    cell->robots.push_back(arm_at("r3", 0, -500, 0, pose_mm(400, -120, 300, 0, 0, 30)));
     Standoff s{cell};
     s.command("r1", line_to(pose_mm(400, 250, 300))).run(strategy);
     s.expect_safe_and_served();
@@ -102,9 +121,14 @@ TEST(Standoff, BlockerNearTheBorder) {
     EXPECT_NE(escape.text.find(" goes -y "), std::string::npos) << escape.text;
     const auto whole = core::to_reachable_goal(*cell, 1, cell->robots[1].start, -Vector3::UnitY());
     ASSERT_TRUE(whole.motion);
-    EXPECT_TRUE(touches(*cell, 1, whole.motion->motion(), 2, cell->robots[2].start)) << "the border itself is no safe goal here";
+    const double free = free_length(*cell, 1, whole.motion->motion(), 2, cell->robots[2].start);
+    EXPECT_LT(free, 0.2) << "the border itself is no safe goal: r3 stands in the way";
     EXPECT_GT(-escape.way().y(), 0.02) << strategy;
-    EXPECT_LT(-escape.way().y(), whole.motion->motion().length(whole.motion->motion().duration()) - 0.02) << strategy;
+    EXPECT_LT(-escape.way().y(), free) << strategy;
+    // acm would brake for another 50 mm behind the collision area; the last sample before r3 stops it: 3 mm at its speed.
+    if (strategy == "acm") {
+      EXPECT_GT(-escape.way().y(), free - 0.003);
+    }
   }
 }
 
