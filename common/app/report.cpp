@@ -54,6 +54,7 @@ void ReportCollector::on_status(const model::CommandStatus& status) {
     row.explanation = status.text;
     row.conflicts = status.conflicts;
   }
+  if (status.reason == model::Reason::deadlock) warned_.insert(status.id);
   row.delay = std::max(row.delay, status.delay);
   if (status.state >= CommandState::started && status.state != CommandState::rejected && status.state != CommandState::cancelled) {
     if (status.start) row.start = model::to_seconds(*status.start - origin_);
@@ -66,6 +67,7 @@ RunReport ReportCollector::finish(std::string strategy) const {
   RunReport r;
   r.strategy = std::move(strategy);
   r.commands = rows_;
+  r.warnings = warned_.size();
   std::optional<double> first, last;
   for (const CommandRow& row : rows_) {
     if (row.escape) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,8 @@ struct CommandRow {
 struct RunReport {
   std::string strategy;
   double makespan = 0;  ///< first start to last end [s]
-  std::size_t submitted = 0, completed = 0, rejected = 0, unserved = 0, escapes = 0, warnings = 0;
+  std::size_t submitted = 0, completed = 0, rejected = 0, unserved = 0, escapes = 0;
+  std::size_t warnings = 0;  ///< commands for which people were asked for help
   std::optional<std::size_t> collisions;
   std::optional<double> least_clearance;  ///< [m]
   std::optional<DurationStatistics> map_build, decision;
@@ -73,6 +75,7 @@ class ReportCollector {
   model::Instant origin_;
   std::vector<CommandRow> rows_;
   std::map<model::CommandId, std::size_t> by_id_;
+  std::set<model::CommandId> warned_;  // for which people were asked for help
   std::size_t open_ = 0;
 };
 

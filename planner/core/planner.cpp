@@ -76,7 +76,7 @@ void Planner::serve_whoever_can(Instant now, Decisions& out) {
 }
 
 /// The dissertation's order (6.2): one commanded robot at a time, looked for from robot 1 on. While one is deadlocked, and until the
-/// escapes and the motion they serve are over, nobody else gets a command.
+/// escapes and the motion they serve are over, nobody else gets a command, unless nothing but such a command can help.
 void Planner::serve_in_turn(Instant now, Decisions& out) {
   while (!escaping_ || all_stand()) {
     escaping_ = false;
@@ -87,7 +87,12 @@ void Planner::serve_in_turn(Instant now, Decisions& out) {
       deadlocked_ = index_of(*commanded);
     }
     RobotRecord& r = robots_[*deadlocked_];
-    if (r.next() && !r.committed && !try_commit_when_all_stand(r, now, out)) return;
+    if (r.next() && !r.committed && !try_commit_when_all_stand(r, now, out)) {
+      // When all stand and no escape was found, people are told, and what they can do is to give another robot a command.
+      const auto helps = [&](RobotRecord& other) { return &other != &r && other.next() && try_commit(other, now, out); };
+      if (all_stand()) (void)std::any_of(robots_.begin(), robots_.end(), helps);
+      return;
+    }
     deadlocked_.reset();
   }
 }
@@ -147,12 +152,12 @@ void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment
   from.pop_front();
   CommandStatus& status = command.status;
   const double delay = model::to_seconds(*a.start - could_start);
-  if (a.conflicts.empty() && delay > 0 && !status.conflicts.empty()) {
+  if (a.conflicts.empty() && delay > 0) {
     // It goes at once now, but it stood waiting before: what kept it is the evidence of its delay.
     a.conflicts = status.conflicts;
     for (model::Conflict& c : a.conflicts) c.until = std::min(c.until, *a.start);
-    if (a.reason == Reason::none) a.reason = Reason::delayed;
   }
+  if (a.reason == Reason::none && delay > 0 && !a.conflicts.empty()) a.reason = Reason::delayed;
   Commitment c;
   c.serial = ++r.last_serial;
   c.start_from = *a.start;
