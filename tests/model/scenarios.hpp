@@ -1,7 +1,11 @@
 #pragma once
 
+#include <array>
 #include <chrono>
+#include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "tests/model/scenario.hpp"
 #include "tests/support/arms.hpp"
@@ -57,6 +61,43 @@ inline Scenario swapped_places() {
     r.start = model::preferred_posture(r.model, r.X_WB.inverse() * pose_mm(350, i == 0 ? 150 : -150, 200)).value();
   }
   return walked(cell, {{"a1", 0, line_to(pose_mm(350, -80, 200))}, {"b1", 1, line_to(pose_mm(350, 80, 200))}});
+}
+
+/// Three arms around one place, their homes tucked back over their bases; they start, and are to go, where `starts` and `goals` [mm] say.
+inline Scenario triangle(const std::array<model::Vector3, 3>& starts, const std::array<model::Vector3, 3>& goals) {
+  auto cell = std::make_shared<model::Cell>();
+  cell->name = "triangle";
+  cell->robots.push_back(experiment_robot("r1", {0, 0.25, 0}, pose_mm(200, 250, 500, 0, -45, 0)));
+  cell->robots.push_back(experiment_robot("r2", {0, -0.25, 0}, pose_mm(200, -250, 500, 0, -45, 0)));
+  cell->robots.push_back(experiment_robot("r3", {0.6, 0, 0}, pose_mm(400, 0, 500, 0, -45, 180), kPi));
+  const auto at = [](const model::Vector3& p, model::RobotIndex i) { return pose_mm(p.x(), p.y(), p.z(), 0, 0, i == 2 ? 180 : 0); };
+  std::vector<Order> orders;
+  for (model::RobotIndex i = 0; i < 3; ++i) {
+    model::Robot& r = cell->robots[i];
+    r.start = model::preferred_posture(r.model, r.X_WB.inverse() * at(starts[i], i)).value();
+    orders.push_back({std::string(1, static_cast<char>('a' + i)) + "1", i, line_to(at(goals[i], i))});
+  }
+  return walked(cell, std::move(orders));
+}
+
+/// r2 stands in the way of r3, and r3 in the way of r1.
+inline Scenario chain() {
+  return triangle({{{240, 280, 360}, {430, -140, 290}, {220, 120, 190}}}, {{{310, 230, 310}, {160, -70, 250}, {440, -200, 380}}});
+}
+
+/// Both others stand in the way of r2, and one of them in the way of r1.
+inline Scenario two_blockers() {
+  return triangle({{{240, 30, 300}, {410, -260, 230}, {270, 200, 240}}}, {{{420, 260, 410}, {380, 60, 210}, {490, 300, 330}}});
+}
+
+/// Each of three stands where the next wants to pass.
+inline Scenario circle_of_three() {
+  return triangle({{{340, 130, 390}, {240, -190, 380}, {250, -110, 260}}}, {{{220, -40, 360}, {440, -270, 390}, {310, 220, 360}}});
+}
+
+/// r2 alone stands in the way of r1, and can only leave when r3 has gone first.
+inline Scenario cascade() {
+  return triangle({{{400, 240, 280}, {430, -130, 170}, {370, -290, 380}}}, {{{320, -140, 180}, {430, -250, 350}, {300, -300, 380}}});
 }
 
 }  // namespace interlace::test
