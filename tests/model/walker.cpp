@@ -1,7 +1,7 @@
 #include "tests/model/walker.hpp"
 
 #include <algorithm>
-#include <functional>
+#include <utility>
 
 namespace interlace::test {
 
@@ -27,8 +27,9 @@ World Walker::replay(const std::vector<std::size_t>& numbers) {
 }
 
 /// Interleavings from here on.
-double Walker::walk_from(const World& world) {
+double Walker::walk_from(World world) {
   found_.depth = std::max(found_.depth, numbers_.size());
+  found_.least = std::min(found_.least, world.least_clearance());
   if (!world.fault().empty()) return blame(world.fault()), 1;
   const auto [entry, fresh] = seen_.try_emplace(world.signature(), kOpen);
   double& interleavings = entry->second;
@@ -50,9 +51,9 @@ double Walker::walk_from(const World& world) {
     }
     numbers_.push_back(n);
     told_.push_back(world.tell(choices[n]));
-    World next = world;
+    World next = n + 1 < choices.size() ? world : std::move(world);
     next.happen(choices[n]);
-    sum += walk_from(next);
+    sum += walk_from(std::move(next));
     numbers_.pop_back();
     told_.pop_back();
   }
@@ -62,7 +63,6 @@ double Walker::walk_from(const World& world) {
 double Walker::end_at(const World& world) {
   ++found_.branches;
   ++found_.ends;
-  found_.least = std::min(found_.least, world.least_clearance());
   bool delayed = false, cancelled = false;
   std::size_t escapes = 0;
   for (const auto& [id, said] : world.said()) {
@@ -73,7 +73,6 @@ double Walker::end_at(const World& world) {
   }
   found_.delays += delayed ? 1 : 0;
   found_.cancels += cancelled ? 1 : 0;
-  found_.escapes += escapes > 0 ? 1 : 0;
   found_.most_escapes = std::max(found_.most_escapes, escapes);
   if (found_.samples.size() < kSamples) {
     found_.samples.push_back(numbers_);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -19,7 +20,7 @@ struct Walk {
   double least = std::numeric_limits<double>::infinity();  ///< clearance [m]
   bool whole = true;                                       ///< nothing was left out
   std::string fault;                                       ///< the first one, with what led to it
-  std::size_t delays = 0, escapes = 0, cancels = 0;        ///< ends with a delayed command, an escape, a cancelled command
+  std::size_t delays = 0, cancels = 0;                     ///< ends with a delayed command, with a cancelled one
   std::size_t most_escapes = 0;                            ///< carried out in one branch
   std::vector<std::vector<std::size_t>> samples;           ///< numbers of the choices of some branches to their ends
   std::vector<std::string> sample_ends;                    ///< and the signatures there
@@ -40,7 +41,7 @@ class Walker {
   static constexpr double kOpen = -1;  // on the way to the present state
   static constexpr std::size_t kDeepest = 2000;
 
-  double walk_from(const World& world);
+  double walk_from(World world);
   double end_at(const World& world);
   void blame(const std::string& text);
 
