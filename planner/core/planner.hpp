@@ -42,7 +42,8 @@ struct Decisions {
 };
 
 /// The one planner of a cell: queues, start windows, commitments. Pure: no clock, thread, file, log or socket. Events go in with the
-/// time they happened, decisions come out as values. `now` never goes backwards. Not thread-safe.
+/// time they happened, decisions come out as values. `now` never goes backwards. Not thread-safe. A copy goes its own way from there, but
+/// in the same thread: copies share what has been computed of motions.
 /// Promise: a dispatch is sent only for a start that is clear of every motion in progress or promised, wherever in their windows those
 /// start, and also if one that has not been confirmed never starts.
 class Planner {
@@ -127,7 +128,7 @@ class Planner {
 
   std::shared_ptr<const model::Cell> cell_;
   PlannerOptions options_;
-  std::unique_ptr<Strategy> strategy_;
+  std::shared_ptr<const Strategy> strategy_;  // stateless: copies share it
   Neighbourhood neighbourhood_;
   MapStore maps_;
   std::vector<RobotRecord> robots_;

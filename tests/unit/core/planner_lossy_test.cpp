@@ -42,7 +42,7 @@ model::Joints joints_at(const IdealProxy& proxy, Instant t) {
   auto next = std::upper_bound(done.begin(), done.end(), t, [](Instant x, const Executed& e) { return x < e.start; });
   if (next == done.begin()) return proxy.robot().start;
   --next;
-  return next->motion.joints(model::to_seconds(t - next->start) / next->stretch);
+  return next->motion->joints(model::to_seconds(t - next->start) / next->stretch);
 }
 
 /// Least clearance of all the robots, looked at every millisecond from the motions really carried out.
