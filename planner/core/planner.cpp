@@ -251,6 +251,7 @@ model::PlannerState Planner::state(Instant now) const {
       status.text = current->text;
       status.conflicts = current->conflicts;
       status.refusals = current->refusals;
+      status.serves = current->serves;
     }
     status.mode = r.lost()                                                          ? RobotMode::unknown
                   : r.committed && r.committed->phase == Commitment::Phase::started ? RobotMode::moving
