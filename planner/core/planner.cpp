@@ -134,7 +134,7 @@ bool Planner::try_commit(RobotRecord& r, Instant now, Decisions& out) {
 }
 
 /// Makes the start that `a` chose for the command whose turn it is a fact. `could_start`: what its delay is counted from.
-void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment a, Instant could_start, Decisions& out) {
+void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment a, Instant could_start, Decisions& out, std::string text) {
   auto& from = r.escapes.empty() ? r.queue : r.escapes;
   QueuedCommand command = std::move(from.front());
   from.pop_front();
@@ -156,7 +156,7 @@ void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment
   status.start = c.start_from;
   status.end = c.start_from + model::from_seconds(command.motion->motion().duration());
   status.delay = delay;
-  status.text = sentence(r.robot->name, a, delay);
+  status.text = text.empty() ? sentence(r.robot->name, a, delay) : std::move(text);
   status.conflicts = std::move(a.conflicts);
   status.refusals.clear();
   publish(status, out);

@@ -101,9 +101,8 @@ bool Planner::make_room_for(RobotRecord& r, Instant now, Decisions& out) {
     e.assessment.reason = Reason::escape;
     b.way_back.push_back(undoing(e.motion->motion()));
     b.escapes.push_front(std::move(escape));
-    commit_next(b, candidate_of(b, e.motion), std::move(e.assessment), now + options_.lead, out);
-    b.committed->command.status.text = fmt::format("{} goes {} to make room for {}", b.robot->name.str(), to_string(e.way), serves.str());
-    publish(b.committed->command.status, out);
+    commit_next(b, candidate_of(b, e.motion), std::move(e.assessment), now + options_.lead, out,
+                fmt::format("{} goes {} to make room for {}", b.robot->name.str(), to_string(e.way), serves.str()));
     rejudge_queue(b, out);
   }
   plan->served.reason = Reason::escape;
