@@ -9,9 +9,15 @@ using model::Reason;
 
 namespace {
 
+bool same(const std::vector<model::EscapeRefusal>& a, const std::vector<model::EscapeRefusal>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& x, const auto& y) { return x.robot == y.robot && x.way == y.way && x.text == y.text; });
+}
+
 /// Saying it again would tell nobody anything new.
 bool same_news(const model::CommandStatus& a, const model::CommandStatus& b) {
-  return a.state == b.state && a.reason == b.reason && a.text == b.text && a.start == b.start && a.end == b.end;
+  return a.state == b.state && a.reason == b.reason && a.text == b.text && a.start == b.start && a.end == b.end &&
+         same(a.refusals, b.refusals);
 }
 
 std::string seconds_text(LocalDuration d) {
@@ -80,6 +86,7 @@ void Ledger::close(const model::CommandId& id, CommandState state, Reason reason
   answer.status.reason = reason;
   answer.status.text = std::move(text);
   answer.status.conflicts.clear();
+  answer.status.refusals.clear();
   news_.push_back(answer);
 }
 
@@ -131,7 +138,8 @@ void Ledger::on_status(std::uint64_t incarnation, const model::CommandStatus& st
   entry.heard = now;
   const bool was_final = model::is_final(entry.answer.status.state);
   // A cancellation is answered by the end of its command, or by its start: then it came too late. A stop is answered at once.
-  if (model::is_final(status.state) || status.state == CommandState::started) orders_.erase(status.id);
+  // An escape is the planner's own and not given up for a client: any news of it is the answer.
+  if (model::is_final(status.state) || status.state == CommandState::started || status.escape) orders_.erase(status.id);
   if (was_final) return;
   if (Line& line = lines_[status.robot]; line.asked == status.id) {
     line.asked.reset();

@@ -32,6 +32,7 @@ app::ReportCollector& ProgramRun::collector(model::Instant origin) {
   if (!collector_) {
     collector_.emplace(origin);
     for (const auto& planned : plan_) collector_->on_submitted(planned.command.id, planned.command.robot, planned.release);
+    for (const auto& status : early_escapes_) collector_->on_status(status);
   }
   return *collector_;
 }
@@ -39,9 +40,16 @@ app::ReportCollector& ProgramRun::collector(model::Instant origin) {
 void ProgramRun::on_answer(const Answer& answer) {
   changed_ = LocalTime::clock::now();
   const auto found = index_.find(answer.status.id);
+  const double t = std::chrono::duration<double>(changed_ - start_).count();
   if (found == index_.end()) {
-    // Escapes of others' commands before our first answer belong to another run.
-    if (collector_ && answer.status.escape) collector_->on_status(answer.status);
+    // Escapes for commands of others belong to another run.
+    if (!answer.status.escape || index_.count(answer.status.serves) == 0) return;
+    if (collector_) {
+      collector_->on_status(answer.status);
+    } else {
+      early_escapes_.push_back(answer.status);
+    }
+    if (on_change_) on_change_(nullptr, answer, t);
     return;
   }
   const PlannedCommand& planned = plan_[found->second];
@@ -50,7 +58,7 @@ void ProgramRun::on_answer(const Answer& answer) {
   } else if (collector_) {
     collector_->on_status(answer.status);
   }
-  if (on_change_) on_change_(planned, answer, std::chrono::duration<double>(changed_ - start_).count());
+  if (on_change_) on_change_(&planned, answer, t);
 }
 
 void ProgramRun::release(LocalTime now) {

@@ -32,8 +32,9 @@ enum class RunEnd {
 /// Same thread as the client, whose callback on_answer it takes over.
 class ProgramRun {
  public:
-  /// `on_change` is called for every change of a command of the program: which one, what is known, seconds since the start.
-  using OnChange = std::function<void(const PlannedCommand&, const Answer&, double)>;
+  /// Called for every change of a command of the program, and of an escape that serves one: which command (null: an escape), what is
+  /// known, seconds since the start.
+  using OnChange = std::function<void(const PlannedCommand*, const Answer&, double)>;
 
   ProgramRun(Client& client, std::vector<PlannedCommand> plan, ProgramRunOptions options, OnChange on_change);
   ~ProgramRun();
@@ -67,7 +68,8 @@ class ProgramRun {
   LocalTime start_{};
   LocalTime changed_{};  // when anything last happened that is no standstill
   LocalTime planner_seen_{};
-  std::optional<app::ReportCollector> collector_;  // from the first status on: that places the start of the run in planner time
+  std::vector<model::CommandStatus> early_escapes_;  // heard before the first status: topics of different robots keep no common order
+  std::optional<app::ReportCollector> collector_;    // from the first status on: that places the start of the run in planner time
 };
 
 }  // namespace interlace::client

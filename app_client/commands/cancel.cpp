@@ -32,10 +32,13 @@ ExitCode execute(const Arguments& a, Interrupts& interrupts) {
   }
   (void)client.spin_until(after_seconds(a.cell.timeout), [&] {
     const auto& status = client.find(*id)->status;
-    return interrupts.requested() || model::is_final(status.state) || status.state == CommandState::started;
+    return interrupts.requested() || model::is_final(status.state) || status.state == CommandState::started || status.escape;
   });
   const Answer& answer = *client.find(*id);
   std::cout << (a.cell.json ? to_json(answer).dump(2) : fmt::format("{} {}", a.id, describe(answer.status))) << '\n' << std::flush;
+  if (answer.status.escape) {
+    fmt::print(stderr, "{} is an escape of the planner: cancel the command it serves, {}\n", a.id, answer.status.serves.str());
+  }
   if (interrupts.requested()) return ExitCode::interrupted;
   if (!answer.told) return ExitCode::unavailable;
   return answer.status.state == CommandState::cancelled ? ExitCode::ok : ExitCode::unserved;
@@ -50,7 +53,7 @@ Command cancel(CLI::App& parent) {
   command->add_option("ID", a->id, "of the command, see `interlace status`")->required();
   add_cell_options(*command, a->cell);
   command->footer(
-      "Ends with 0 when the command was given up, with 1 when it had started, was final or is not known.\n"
+      "Ends with 0 when the command was given up, with 1 when it had started, was final, is not known or is an escape.\n"
       "Example:\n  interlace cancel r1 send-4k9x2m7p0qvd --cell exp-4-2");
   return {command, [a](Interrupts& interrupts) { return execute(*a, interrupts); }};
 }

@@ -29,9 +29,16 @@ ExitCode refuse(const app::ConfigError& error) {
   return ExitCode::bad_input;
 }
 
-void show_change(const PlannedCommand& planned, const Answer& answer, double t) {
-  if (answer.status.state == model::CommandState::queued) return;  // a whole program is queued within a moment
-  fmt::print(stderr, "{:8.2f} s  {} {}/{}  {}\n", t, planned.command.robot.str(), planned.ordinal, planned.of, describe(answer.status));
+void show_change(const PlannedCommand* planned, const Answer& answer, double t) {
+  const auto& status = answer.status;
+  if (status.state == model::CommandState::queued) return;  // a whole program is queued within a moment
+  if (!planned) {
+    fmt::print(stderr, "{:8.2f} s  {} {}\n", t, status.robot.str(), describe_escape(status));
+    return;
+  }
+  const bool warning = status.reason == model::Reason::deadlock && status.state == model::CommandState::waiting;
+  fmt::print(stderr, "{:8.2f} s  {} {}/{}  {}{}\n", t, status.robot.str(), planned->ordinal, planned->of, warning ? "WARNING " : "",
+             describe(status));
 }
 
 /// Says why a run ended before its program did.

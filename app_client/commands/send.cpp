@@ -36,9 +36,11 @@ ExitCode judge(const Answer& answer, const Arguments& a) {
 ExitCode follow(Client& client, const model::CommandSubmitted& command, const Arguments& a, const Interrupts& interrupts) {
   const LocalTime start = LocalTime::clock::now();
   client.on_answer([&](const Answer& answer) {
-    if (answer.status.id != command.id || a.cell.json) return;
+    if (a.cell.json) return;
+    if (answer.status.id != command.id && answer.status.serves != command.id) return;
     const double t = std::chrono::duration<double>(LocalTime::clock::now() - start).count();
-    fmt::print(stderr, "{:8.2f} s  {}  {}\n", t, command.robot.str(), describe(answer.status));
+    fmt::print(stderr, "{:8.2f} s  {}  {}\n", t, answer.status.robot.str(),
+               answer.status.escape ? describe_escape(answer.status) : describe(answer.status));
   });
   if (const auto submitted = client.submit(command); !submitted) {
     fmt::print(stderr, "{}: {}\n", command.id.str(), to_string(submitted.error()));
@@ -46,7 +48,7 @@ ExitCode follow(Client& client, const model::CommandSubmitted& command, const Ar
   }
   const auto enough = [&] {
     const Answer& answer = *client.find(command.id);
-    return model::is_final(answer.status.state) || (!a.wait && answer.told);
+    return model::is_final(answer.status.state) || (!a.wait && answer.told) || answer.status.escape;
   };
   bool done = client.spin_until(after_seconds(a.wait ? a.within : a.cell.timeout), [&] { return enough() || interrupts.requested(); });
   if (interrupts.requested() && !enough()) {
@@ -56,6 +58,11 @@ ExitCode follow(Client& client, const model::CommandSubmitted& command, const Ar
                              [&] { return enough() || client.find(command.id)->status.state == CommandState::started; });
   }
   const Answer answer = *client.find(command.id);
+  if (answer.status.escape) {
+    fmt::print(stderr, "--id: found \"{}\", which is an escape of the planner for {}; nothing was sent under it\n", command.id.str(),
+               answer.status.serves.str());
+    return ExitCode::bad_input;
+  }
   if (!done) fmt::print(stderr, "{} is not final yet; it stays with the planner\n", command.id.str());
   std::cout << (a.cell.json ? to_json(answer).dump(2) : fmt::format("{} {}", command.id.str(), describe(answer.status))) << '\n'
             << std::flush;

@@ -9,6 +9,7 @@
 
 #include "app_client/clearance_watch.hpp"
 #include "app_client/commands/command.hpp"
+#include "app_client/output.hpp"
 
 namespace interlace::client::commands {
 
@@ -28,15 +29,16 @@ struct Arguments {
 
 constexpr double kDegrees = 180 / model::kPi;
 
-std::string posture_line(const model::PostureReported& p, double t) {
+std::string posture_line(const model::PostureReported& p, const model::CommandId& serves, double t) {
   const model::Vector3 at = 1e3 * p.X_WT.translation();
   const model::Joints q = kDegrees * p.joints;
-  return fmt::format("{:9.2f} s  {}  TCP ({:.1f}, {:.1f}, {:.1f}) mm  joints ({:.1f}, {:.1f}, {:.1f}, {:.1f}, {:.1f}, {:.1f}) deg  {}{}", t,
-                     p.robot.str(), at.x(), at.y(), at.z(), q[0], q[1], q[2], q[3], q[4], q[5],
-                     p.moving ? "moving " + p.motion.str() : "standing", p.ready ? "" : ", not ready");
+  return fmt::format("{:9.2f} s  {}  TCP ({:.1f}, {:.1f}, {:.1f}) mm  joints ({:.1f}, {:.1f}, {:.1f}, {:.1f}, {:.1f}, {:.1f}) deg  {}{}{}",
+                     t, p.robot.str(), at.x(), at.y(), at.z(), q[0], q[1], q[2], q[3], q[4], q[5],
+                     p.moving ? "moving " + p.motion.str() : "standing", serves.empty() ? "" : " (escape for " + serves.str() + ")",
+                     p.ready ? "" : ", not ready");
 }
 
-nlohmann::json posture_json(const model::PostureReported& p, double t) {
+nlohmann::json posture_json(const model::PostureReported& p, const model::CommandId& serves, double t) {
   const Eigen::Quaterniond q{p.X_WT.linear()};
   const model::Vector3 at = p.X_WT.translation();
   return {{"t", t},
@@ -46,7 +48,8 @@ nlohmann::json posture_json(const model::PostureReported& p, double t) {
           {"joints_rad", {p.joints[0], p.joints[1], p.joints[2], p.joints[3], p.joints[4], p.joints[5]}},
           {"moving", p.moving},
           {"ready", p.ready},
-          {"motion", p.motion.str()}};
+          {"motion", p.motion.str()},
+          {"serves", serves.empty() ? nlohmann::json(nullptr) : nlohmann::json(serves.str())}};
 }
 
 /// What has passed by since the watch began.
@@ -63,6 +66,18 @@ class Watch {
     if (!clearance_) show(m.posture, received);
   }
 
+  /// Says what robots that are shown wait for, or move out of the way for, whenever that changes.
+  void on_planner(const model::PlannerState& state, const std::vector<model::RobotName>& robots) {
+    if (clearance_) return;
+    for (const model::RobotStatus& r : state.robots) {
+      if (std::find(robots.begin(), robots.end(), r.name) == robots.end()) continue;
+      model::RobotStatus& known = known_[r.name];
+      const bool same = known.current == r.current && known.mode == r.mode && known.reason == r.reason && known.text == r.text;
+      known = r;
+      if (!same && r.reason != model::Reason::none) show(r, state.at);
+    }
+  }
+
   /// When nothing has moved for as long as asked; empty when that is not asked or nothing has moved yet.
   [[nodiscard]] std::optional<LocalTime> idle_at() const {
     if (a_.until_idle <= 0 || !last_moving_) return std::nullopt;
@@ -77,12 +92,33 @@ class Watch {
   }
 
  private:
+  [[nodiscard]] double seconds(LocalTime t) const { return std::chrono::duration<double>(t - origin_).count(); }
+
+  void show(const model::RobotStatus& r, model::Instant at) {
+    const double t = seconds(LocalTime::clock::now());
+    if (a_.cell.json) {
+      nlohmann::json json = to_json(r);
+      json["t"] = t;
+      json["robot"] = json["name"];
+      json.erase("name");
+      std::cout << json.dump() << '\n' << std::flush;
+    } else {
+      std::cout << fmt::format("{:9.2f} s  {}\n", t, describe(r, at, r.name.str().size())) << std::flush;
+    }
+  }
+
+  /// The command that the robot's motion serves, when it is an escape; empty otherwise, and while no planner is heard.
+  [[nodiscard]] model::CommandId serves(const model::PostureReported& p) const {
+    const auto found = known_.find(p.robot);
+    return found != known_.end() && !p.motion.empty() && found->second.current == p.motion ? found->second.serves : model::CommandId{};
+  }
+
   void show(const model::PostureReported& p, LocalTime received) {
     auto& next = next_line_[p.robot];
     if (received < next) return;
     next = received + std::chrono::duration_cast<LocalDuration>(std::chrono::duration<double>{1 / a_.rate});
-    const double t = std::chrono::duration<double>(received - origin_).count();
-    std::cout << (a_.cell.json ? posture_json(p, t).dump() : posture_line(p, t)) << '\n' << std::flush;
+    const double t = seconds(received);
+    std::cout << (a_.cell.json ? posture_json(p, serves(p), t).dump() : posture_line(p, serves(p), t)) << '\n' << std::flush;
   }
 
   [[nodiscard]] ExitCode judge() const {
@@ -98,6 +134,7 @@ class Watch {
   LocalTime origin_;
   std::optional<ClearanceWatch> clearance_;
   std::map<model::RobotName, LocalTime> next_line_;
+  std::map<model::RobotName, model::RobotStatus> known_;  // what the planner last said
   std::optional<LocalTime> last_moving_;
   std::size_t postures_ = 0;
 };
@@ -124,8 +161,12 @@ ExitCode observe(const Arguments& a, const app::LoadedCell* cell, Interrupts& in
   Watch watch{a, cell};
   client.on_posture([&](const dds::PostureMessage& m, LocalTime received) { watch.on_posture(m, received); });
   for (const auto& robot : robots) client.follow(robot);
+  if (!a.clearance) (void)client.hear_planner(LocalTime::clock::now());  // postures are shown without one, too
   const LocalTime end = a.duration > 0 ? after_seconds(a.duration) : after_seconds(10.0 * 365 * 86400);
-  const auto over = [&] { return interrupts.requested() || LocalTime::clock::now() >= std::min(end, watch.idle_at().value_or(end)); };
+  const auto over = [&] {
+    if (client.planner()) watch.on_planner(*client.planner(), robots);
+    return interrupts.requested() || LocalTime::clock::now() >= std::min(end, watch.idle_at().value_or(end));
+  };
   while (!client.spin_until(std::min(end, watch.idle_at().value_or(after_seconds(1))), over)) {
   }
   return watch.finish();

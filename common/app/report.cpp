@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "common/app/evidence.hpp"
+
 namespace interlace::app {
 
 using model::CommandState;
@@ -37,6 +39,28 @@ void ReportCollector::on_submitted(const model::CommandId& id, const model::Robo
   ++open_;
 }
 
+namespace {
+
+/// The conflicts with their times from the start of the run instead of the planner's.
+std::vector<model::Conflict> since(model::Instant origin, std::vector<model::Conflict> conflicts) {
+  for (model::Conflict& c : conflicts) {
+    for (model::Instant* t : {&c.from, &c.until}) {
+      if (*t != model::kForever && *t != model::kEarliest) *t -= origin.time_since_epoch();
+    }
+  }
+  return conflicts;
+}
+
+}  // namespace
+
+void ReportCollector::note_deadlock(const model::CommandStatus& status) {
+  if (status.reason != model::Reason::deadlock || model::is_final(status.state)) {
+    deadlocked_.erase(status.id);
+  } else if (deadlocked_.insert(status.id).second) {
+    ++warnings_;
+  }
+}
+
 void ReportCollector::on_status(const model::CommandStatus& status) {
   auto found = by_id_.find(status.id);
   if (found == by_id_.end()) {
@@ -44,6 +68,7 @@ void ReportCollector::on_status(const model::CommandStatus& status) {
     on_submitted(status.id, status.robot, model::to_seconds(status.submitted - origin_));
     found = by_id_.find(status.id);
     rows_[found->second].escape = true;
+    rows_[found->second].serves = status.serves;
   }
   CommandRow& row = rows_[found->second];
   if (model::is_final(row.state)) return;
@@ -52,9 +77,11 @@ void ReportCollector::on_status(const model::CommandStatus& status) {
   if (status.reason != model::Reason::none) {
     row.reason = status.reason;
     row.explanation = status.text;
-    row.conflicts = status.conflicts;
   }
-  if (status.reason == model::Reason::deadlock) warned_.insert(status.id);
+  // Evidence too: what was waited for is of interest after a cancellation, and what a warning said after it was resolved.
+  if (!status.conflicts.empty()) row.conflicts = since(origin_, status.conflicts);
+  if (!status.refusals.empty()) row.refusals = status.refusals;
+  note_deadlock(status);
   row.delay = std::max(row.delay, status.delay);
   if (status.state >= CommandState::started && status.state != CommandState::rejected && status.state != CommandState::cancelled) {
     if (status.start) row.start = model::to_seconds(*status.start - origin_);
@@ -67,7 +94,7 @@ RunReport ReportCollector::finish(std::string strategy) const {
   RunReport r;
   r.strategy = std::move(strategy);
   r.commands = rows_;
-  r.warnings = warned_.size();
+  r.warnings = warnings_;
   std::optional<double> first, last;
   for (const CommandRow& row : rows_) {
     if (row.escape) {
@@ -97,25 +124,15 @@ nlohmann::json or_null(const std::optional<T>& value) {
   return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
 }
 
-nlohmann::json to_json(const model::Conflict& c) {
-  return {{"blocker", c.blocker.str()},
-          {"link", c.own_link},
-          {"blocker_link", c.blocker_link},
-          {"clearance_m", c.clearance},
-          {"place_m", {c.place.x(), c.place.y(), c.place.z()}},
-          {"open_ended", c.until == model::kForever}};
-}
-
 }  // namespace
 
 nlohmann::json to_json(const RunReport& r) {
   nlohmann::json commands = nlohmann::json::array();
   for (const CommandRow& row : r.commands) {
-    nlohmann::json conflicts = nlohmann::json::array();
-    for (const model::Conflict& c : row.conflicts) conflicts.push_back(to_json(c));
     commands.push_back({{"id", row.id.str()},
                         {"robot", row.robot.str()},
                         {"origin", row.escape ? "escape" : "client"},
+                        {"serves", name_or_null(row.serves.str())},
                         {"state", model::to_string(row.state)},
                         {"release_s", row.release},
                         {"start_s", or_null(row.start)},
@@ -123,7 +140,8 @@ nlohmann::json to_json(const RunReport& r) {
                         {"delay_s", row.delay},
                         {"reason", model::to_string(row.reason)},
                         {"explanation", row.explanation},
-                        {"conflicts", std::move(conflicts)}});
+                        {"conflicts", to_json(row.conflicts)},
+                        {"refusals", to_json(row.refusals)}});
   }
   return {{"strategy", r.strategy},
           {"makespan_s", r.makespan},
@@ -145,6 +163,7 @@ std::string summary(const RunReport& r) {
   if (r.rejected) text += fmt::format(", {} rejected", r.rejected);
   if (r.unserved) text += fmt::format(", {} unserved", r.unserved);
   if (r.escapes) text += fmt::format(", {} escapes", r.escapes);
+  if (r.warnings) text += fmt::format(", {} deadlock warnings", r.warnings);
   if (r.collisions && *r.collisions) text += fmt::format(", {} COLLISIONS", *r.collisions);
   if (r.least_clearance) text += fmt::format(", least clearance {:.1f} mm", 1e3 * *r.least_clearance);
   text += '\n';
@@ -152,6 +171,7 @@ std::string summary(const RunReport& r) {
     if (row.state == CommandState::completed) continue;
     text += fmt::format("  {} ({}) {}: {}\n", row.id.str(), row.robot.str(), model::to_string(row.state),
                         row.explanation.empty() ? model::to_string(row.reason) : row.explanation);
+    for (const model::EscapeRefusal& refusal : row.refusals) text += fmt::format("    {}\n", describe(refusal));
   }
   return text;
 }

@@ -26,13 +26,15 @@ struct CommandRow {
   model::CommandId id;
   model::RobotName robot;
   bool escape = false;
+  model::CommandId serves;  ///< of an escape
   double release = 0;
   std::optional<double> start, end;
   double delay = 0;
   model::CommandState state = model::CommandState::queued;
   model::Reason reason = model::Reason::none;
   std::string explanation;
-  std::vector<model::Conflict> conflicts;
+  std::vector<model::Conflict> conflicts;      ///< what it last waited for; their times are from the start of the run, too
+  std::vector<model::EscapeRefusal> refusals;  ///< of its last deadlock: what was tried in vain
 };
 
 /// What a run came to: the report of the contract (DESIGN section 8). What a program cannot know stays empty and is null in JSON.
@@ -40,7 +42,7 @@ struct RunReport {
   std::string strategy;
   double makespan = 0;  ///< first start to last end [s]
   std::size_t submitted = 0, completed = 0, rejected = 0, unserved = 0, escapes = 0;
-  std::size_t warnings = 0;  ///< commands for which people were asked for help
+  std::size_t warnings = 0;  ///< how often a command came into a deadlock that a person was asked to resolve
   std::optional<std::size_t> collisions;
   std::optional<double> least_clearance;  ///< [m]
   std::optional<DurationStatistics> map_build, decision;
@@ -68,14 +70,20 @@ class ReportCollector {
   [[nodiscard]] std::size_t open() const { return open_; }  ///< submitted and not yet final
   [[nodiscard]] const std::vector<CommandRow>& rows() const { return rows_; }
 
+  /// How often a command newly came to the reason `deadlock`: each is a warning to people.
+  [[nodiscard]] std::size_t warnings() const { return warnings_; }
+
   /// The counts, the makespan and the rows.
   [[nodiscard]] RunReport finish(std::string strategy) const;
 
  private:
+  void note_deadlock(const model::CommandStatus& status);
+
   model::Instant origin_;
   std::vector<CommandRow> rows_;
   std::map<model::CommandId, std::size_t> by_id_;
-  std::set<model::CommandId> warned_;  // for which people were asked for help
+  std::set<model::CommandId> deadlocked_;  // now
+  std::size_t warnings_ = 0;
   std::size_t open_ = 0;
 };
 

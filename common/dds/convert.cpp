@@ -20,6 +20,9 @@ static_assert(wire::STATE_FAILED == static_cast<int>(model::CommandState::failed
 static_assert(wire::STATE_COMPLETED == static_cast<int>(model::CommandState::completed));
 static_assert(wire::REASON_BLOCKED == static_cast<int>(model::Reason::blocked));
 static_assert(wire::REASON_UNKNOWN_ID == static_cast<int>(model::Reason::unknown_id));
+static_assert(wire::REASON_DEADLOCK == static_cast<int>(model::Reason::deadlock));
+static_assert(wire::WAY_PLUS_Z == static_cast<int>(model::EscapeWay::plus_z));
+static_assert(wire::WAY_HOME == static_cast<int>(model::EscapeWay::home));
 static_assert(wire::EXECUTION_FAILED == static_cast<int>(model::ExecutionState::failed));
 static_assert(wire::MODE_MOVING == static_cast<int>(model::RobotMode::moving));
 
@@ -98,6 +101,18 @@ std::vector<model::Conflict> read_conflicts(Validator& v, const std::vector<wire
   return conflicts;
 }
 
+std::vector<model::EscapeRefusal> read_refusals(Validator& v, const std::vector<wire::EscapeRefusal>& found) {
+  v.require(found.size() <= kMaxRefusals, [&] { return "refusals: " + std::to_string(found.size()) + " are too many"; });
+  std::vector<model::EscapeRefusal> refusals;
+  if (!v.ok()) return refusals;
+  refusals.reserve(found.size());
+  for (const wire::EscapeRefusal& r : found) {
+    refusals.push_back({model::RobotName{v.name("refusals.robot", r.robot().to_string())},
+                        v.known("refusals.way", r.way(), model::EscapeWay::home), v.text("refusals.text", r.text().to_string(), kMaxText)});
+  }
+  return refusals;
+}
+
 template <typename Message>
 Converted<Message> result(const Validator& v, Message message) {
   if (!v.ok()) return model::unexpected<std::string>{v.refusal()};
@@ -165,6 +180,16 @@ std::vector<wire::Conflict> to_conflicts(const std::vector<model::Conflict>& con
     sent[i].until(nanoseconds(c.until));
     sent[i].clearance(c.clearance);
     sent[i].place(to_point(c.place));
+  }
+  return sent;
+}
+
+std::vector<wire::EscapeRefusal> to_refusals(const std::vector<model::EscapeRefusal>& refusals) {
+  std::vector<wire::EscapeRefusal> sent(std::min(refusals.size(), kMaxRefusals));
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    sent[i].robot(refusals[i].robot.str());
+    sent[i].way(same_value<wire::EscapeWay>(refusals[i].way));
+    sent[i].text(tidy(refusals[i].text, kMaxText));
   }
   return sent;
 }
@@ -248,14 +273,16 @@ Converted<StatusMessage> from_wire(const wire::CommandStatus& w, const std::stri
   status.id = model::CommandId{v.name("id", w.id().to_string())};
   status.robot = model::RobotName{check_owner(v, "robot", w.robot().to_string(), owner)};
   status.escape = w.escape();
+  status.serves = model::CommandId{v.name_or_empty("serves", w.serves().to_string())};
   status.state = v.known("state", w.state(), model::CommandState::failed);
-  status.reason = v.known("reason", w.reason(), model::Reason::unknown_id);
+  status.reason = v.known("reason", w.reason(), model::Reason::deadlock);
   status.text = v.text("text", w.text().to_string(), kMaxText);
   status.submitted = v.stamp("submitted", w.submitted());
   status.start = if_present<model::Instant>(w.has_start(), [&] { return v.stamp("start", w.start()); });
   status.end = if_present<model::Instant>(w.has_end(), [&] { return v.stamp("end", w.end()); });
   status.delay = v.number("delay", w.delay(), kMaxSeconds);
   status.conflicts = read_conflicts(v, w.conflicts());
+  status.refusals = read_refusals(v, w.refusals());
   return result(v, std::move(message));
 }
 
@@ -351,8 +378,9 @@ Converted<model::PlannerState> from_wire(const wire::PlannerState& w, const std:
     state.robots.push_back({model::RobotName{v.name("robots.name", r.name().to_string())},
                             v.known("robots.mode", r.mode(), model::RobotMode::moving), r.queued(),
                             model::CommandId{v.name_or_empty("robots.current", r.current().to_string())},
-                            v.known("robots.reason", r.reason(), model::Reason::unknown_id),
-                            v.text("robots.text", r.text().to_string(), kMaxText), read_conflicts(v, r.conflicts())});
+                            v.known("robots.reason", r.reason(), model::Reason::deadlock),
+                            v.text("robots.text", r.text().to_string(), kMaxText), read_conflicts(v, r.conflicts()),
+                            read_refusals(v, r.refusals()), model::CommandId{v.name_or_empty("robots.serves", r.serves().to_string())}});
   }
   return result(v, std::move(state));
 }
@@ -373,6 +401,7 @@ wire::CommandStatus to_wire(const StatusMessage& message) {
   w.id(status.id.str());
   w.robot(status.robot.str());
   w.escape(status.escape);
+  w.serves(status.serves.str());
   w.state(same_value<wire::CommandState>(status.state));
   w.reason(same_value<wire::ReasonCode>(status.reason));
   w.text(tidy(status.text, kMaxText));
@@ -383,6 +412,7 @@ wire::CommandStatus to_wire(const StatusMessage& message) {
   w.end(nanoseconds(status.end.value_or(model::Instant{})));
   w.delay(status.delay);
   w.conflicts(to_conflicts(status.conflicts));
+  w.refusals(to_refusals(status.refusals));
   return w;
 }
 
@@ -451,9 +481,11 @@ wire::PlannerState to_wire(const model::PlannerState& state) {
     robot.mode(same_value<wire::RobotMode>(r.mode));
     robot.queued(r.queued);
     robot.current(r.current.str());
+    robot.serves(r.serves.str());
     robot.reason(same_value<wire::ReasonCode>(r.reason));
     robot.text(tidy(r.text, kMaxText));
     robot.conflicts(to_conflicts(r.conflicts));
+    robot.refusals(to_refusals(r.refusals));
     w.robots().push_back(std::move(robot));
   }
   return w;

@@ -21,8 +21,8 @@ using Converted = model::Result<Message, std::string>;
 [[nodiscard]] Converted<PostureMessage> from_wire(const ::interlace::Posture& wire, const std::string& owner);
 [[nodiscard]] Converted<model::PlannerState> from_wire(const ::interlace::PlannerState& wire, const std::string& owner);
 
-/// Never fails: text is tidied and cut, conflicts beyond kMaxConflicts are left out. Whether a receiver accepts the result, from_wire
-/// tells.
+/// Never fails: text is tidied and cut, conflicts beyond kMaxConflicts and refusals beyond kMaxRefusals are left out. Whether a
+/// receiver accepts the result, from_wire tells.
 [[nodiscard]] ::interlace::Command to_wire(const CommandMessage& message);
 [[nodiscard]] ::interlace::CommandStatus to_wire(const StatusMessage& message);
 [[nodiscard]] ::interlace::Dispatch to_wire(const DispatchMessage& message);

@@ -8,6 +8,7 @@ namespace interlace::dds {
 
 inline constexpr std::size_t kMaxText = 256;                          ///< [bytes]
 inline constexpr std::size_t kMaxConflicts = 16;                      ///< in one message about one robot
+inline constexpr std::size_t kMaxRefusals = 16;                       ///< of escapes, likewise
 inline constexpr std::size_t kMaxRobots = 128;                        ///< in one cell
 inline constexpr double kMaxLength = 1e4;                             ///< |coordinate|, |clearance| [m]
 inline constexpr double kMaxAngle = 1e3;                              ///< |joint| [rad]

@@ -31,6 +31,19 @@ bool length_within(Cdr& cdr, std::size_t limit, std::uint32_t& length) {
   return length <= limit;
 }
 
+/// Reads over conflicts and refusals.
+bool evidence_is_bounded(Cdr& cdr) {
+  std::uint32_t conflicts = 0;
+  if (!length_within(cdr, kMaxConflicts, conflicts)) return false;
+  for (std::uint32_t c = 0; c < conflicts; ++c) {
+    skip_all<std::string, std::string, std::string, std::int64_t, std::int64_t, double, double, double, double>(cdr);
+  }
+  std::uint32_t refusals = 0;
+  if (!length_within(cdr, kMaxRefusals, refusals)) return false;
+  for (std::uint32_t r = 0; r < refusals; ++r) skip_all<std::string, std::uint32_t, std::string>(cdr);
+  return true;
+}
+
 // The generated reader makes room for as many elements as the bytes claim, before it looks for them: four forged bytes would take all
 // memory. So the claims are checked first, in the layout of the IDL. Messages without sequences have nothing to check.
 template <typename Wire>
@@ -40,10 +53,9 @@ bool lengths_are_bounded(Cdr& /*cdr*/) {
 
 template <>
 bool lengths_are_bounded<::interlace::CommandStatus>(Cdr& cdr) {
-  skip_all<std::uint32_t, std::uint64_t, std::string, std::string, bool, std::uint32_t, std::uint32_t, std::string, std::int64_t, bool,
-           std::int64_t, bool, std::int64_t, double>(cdr);
-  std::uint32_t length = 0;
-  return length_within(cdr, kMaxConflicts, length);
+  skip_all<std::uint32_t, std::uint64_t, std::string, std::string, bool, std::string, std::uint32_t, std::uint32_t, std::string,
+           std::int64_t, bool, std::int64_t, bool, std::int64_t, double>(cdr);
+  return evidence_is_bounded(cdr);
 }
 
 template <>
@@ -52,12 +64,8 @@ bool lengths_are_bounded<::interlace::PlannerState>(Cdr& cdr) {
   std::uint32_t robots = 0;
   if (!length_within(cdr, kMaxRobots, robots)) return false;
   for (std::uint32_t r = 0; r < robots; ++r) {
-    skip_all<std::string, std::uint32_t, std::uint32_t, std::string, std::uint32_t, std::string>(cdr);
-    std::uint32_t conflicts = 0;
-    if (!length_within(cdr, kMaxConflicts, conflicts)) return false;
-    for (std::uint32_t c = 0; c < conflicts; ++c) {
-      skip_all<std::string, std::string, std::string, std::int64_t, std::int64_t, double, double, double, double>(cdr);
-    }
+    skip_all<std::string, std::uint32_t, std::uint32_t, std::string, std::string, std::uint32_t, std::string>(cdr);
+    if (!evidence_is_bounded(cdr)) return false;
   }
   return true;
 }

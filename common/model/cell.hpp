@@ -48,6 +48,7 @@ struct PlanningOptions {
   double resolution = 0.01;  ///< smallest cell of a collision map [s]
   double margin = 0;         ///< clearance kept beyond contact [m]
   std::string strategy = "event";
+  bool escapes = true;                    ///< robots in the way are sent out of it; else their neighbours wait for people
   std::optional<double> lead;             ///< shortest time from a decision to a start [s]; default: the program's own
   std::optional<double> start_tolerance;  ///< latest start after the planned one, before the controller's own latency [s]; ditto
   std::optional<Box> zone;                ///< of the strategy `zone`; default: made from what the robots can reach

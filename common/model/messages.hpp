@@ -181,6 +181,7 @@ struct RobotStatus {
   std::string text;
   std::vector<Conflict> conflicts;
   std::vector<EscapeRefusal> refusals;
+  CommandId serves;  ///< when `current` is an escape: the command it serves
 };
 
 /// Planner → everyone: the whole state, so that a late or deaf listener recovers.

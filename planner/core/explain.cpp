@@ -98,6 +98,8 @@ std::string sentence(const model::RobotName& robot, const Assessment& a, double 
     text += c.until == model::kForever ? fmt::format(" as long as {} stays there", c.blocker.str())
                                        : fmt::format(" if it started before {:.2f} s", model::to_seconds(c.until));
   }
+  constexpr double kAtOnce = 0.005;  // [s]: less is shown as nothing
+  if (a.start && delay < kAtOnce) return fmt::format("{} starts as others leave: {}", robot.str(), text);
   if (a.start) return fmt::format("{} starts {:.2f} s later: {}", robot.str(), delay, text);
   return fmt::format("{} cannot start: {}", robot.str(), text);
 }

@@ -134,8 +134,11 @@ bool Planner::try_commit(RobotRecord& r, Instant now, Decisions& out) {
     commit_next(r, candidate, std::move(a), r.ready_since + options_.lead, out);
     return true;
   }
+  const bool same_blockers = r.blockers_told == a.blockers && std::none_of(a.blockers.begin(), a.blockers.end(), [&](model::RobotIndex b) {
+                               return robots_[b].committed.has_value();
+                             });
   r.blockers = a.blockers;
-  if (head.status.reason == Reason::deadlock && r.room_sought == revision_) return false;  // what a person was told still holds
+  if (head.status.reason == Reason::deadlock && same_blockers) return false;  // what a person was told still holds
   head.status.state = CommandState::waiting;
   head.status.reason = a.reason;
   head.status.text = sentence(r.robot->name, a, 0);
@@ -145,8 +148,8 @@ bool Planner::try_commit(RobotRecord& r, Instant now, Decisions& out) {
 }
 
 /// Makes the start that `a` chose for the command whose turn it is a fact, after what its robot is committed to already.
-/// `could_start`: what its delay is counted from.
-void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment a, Instant could_start, Decisions& out) {
+/// `could_start`: what its delay is counted from. `text` says it to people; empty: what the assessment says.
+void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment a, Instant could_start, Decisions& out, std::string text) {
   auto& from = r.escapes.empty() ? r.queue : r.escapes;
   QueuedCommand command = std::move(from.front());
   from.pop_front();
@@ -168,7 +171,7 @@ void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment
   status.start = c.start_from;
   status.end = c.start_from + model::from_seconds(command.motion->motion().duration());
   status.delay = delay;
-  status.text = sentence(r.robot->name, a, delay);
+  status.text = text.empty() ? sentence(r.robot->name, a, delay) : std::move(text);
   status.conflicts = std::move(a.conflicts);
   status.refusals.clear();
   publish(status, out);
@@ -266,6 +269,7 @@ model::PlannerState Planner::state(Instant now) const {
       status.text = current->text;
       status.conflicts = current->conflicts;
       status.refusals = current->refusals;
+      status.serves = current->serves;
     }
     status.mode = r.lost()                                                          ? RobotMode::unknown
                   : r.committed && r.committed->phase == Commitment::Phase::started ? RobotMode::moving

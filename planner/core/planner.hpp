@@ -100,7 +100,7 @@ class Planner {
   [[nodiscard]] Candidate candidate_of(const RobotRecord& r, const SampledMotionPtr& motion) const;
   [[nodiscard]] Timing timing_at(Instant now) const { return {now + options_.lead, options_.confirm}; }
   bool try_commit(RobotRecord& r, Instant now, Decisions& out);
-  void commit_next(RobotRecord& r, const Candidate& candidate, Assessment a, Instant could_start, Decisions& out);
+  void commit_next(RobotRecord& r, const Candidate& candidate, Assessment a, Instant could_start, Decisions& out, std::string text = {});
   void send_due(Instant now, Decisions& out);
   enum class Departures { open, met, broken };
   [[nodiscard]] Departures departures_of(const Commitment& c) const;
@@ -124,6 +124,7 @@ class Planner {
   [[nodiscard]] EscapeView escape_view(const RobotRecord& r, Instant now) const;
   void warn(RobotRecord& r, EscapeRefusals refusals);
   [[nodiscard]] bool all_stand() const;
+  [[nodiscard]] bool all_stand_around(const std::vector<bool>& around) const;
   [[nodiscard]] bool may_escape() const { return options_.escapes && strategy_->service().escapes; }
 
   std::shared_ptr<const model::Cell> cell_;

@@ -189,6 +189,13 @@ Decisions Planner::on(const model::CommandCancelled& event, Instant now) {
     out.statuses.push_back(status);
     return out;
   }
+  if (known->second.escape) {
+    CommandStatus status = known->second;
+    if (!model::is_final(status.state))
+      status.text = fmt::format("an escape is the planner's own: cancel {}, which it serves", status.serves.str());
+    out.statuses.push_back(status);
+    return out;
+  }
   if (!cancel(robots_[*index], event.id, out)) {
     CommandStatus status = known->second;
     if (!model::is_final(status.state)) status.text = "it has started: a running motion cannot be taken back";

@@ -33,6 +33,13 @@ bool Planner::all_stand() const {
   return std::none_of(robots_.begin(), robots_.end(), [](const RobotRecord& r) { return r.committed.has_value(); });
 }
 
+bool Planner::all_stand_around(const std::vector<bool>& around) const {
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    if (around[i] && robots_[i].committed) return false;
+  }
+  return true;
+}
+
 /// Resolves one deadlock, if there is one that can be resolved. True when something was committed.
 bool Planner::make_room(Instant now, Decisions& out) {
   if (!may_escape()) return false;
@@ -82,9 +89,7 @@ std::vector<bool> Planner::around(const RobotRecord& r) const {
 /// One step of clearing: everybody around stands; whoever can goes home, until the command that all this is for can be let through.
 bool Planner::go_on_clearing(Instant now, Decisions& out) {
   RobotRecord& r = robots_[clearing_->robot];
-  for (std::size_t i = 0; i < robots_.size(); ++i) {
-    if (clearing_->around[i] && robots_[i].committed) return false;
-  }
+  if (!all_stand_around(clearing_->around)) return false;
   const int most = 2 * static_cast<int>(std::count(clearing_->around.begin(), clearing_->around.end(), true));
   if (make_room_for(r, now, out) || (clearing_->steps++ < most && send_home(r, now, out))) return true;
   r.clearing_given_up = revision_;
@@ -187,7 +192,7 @@ bool Planner::make_room_for(RobotRecord& r, Instant now, Decisions& out) {
   const Candidate served = candidate_of(r, waiting.motion);
   auto plan = escape_search(now).make_room(served, waiting.request);
   if (!plan) {
-    if (all_stand()) warn(r, std::move(plan.error()));
+    if (all_stand_around(around(r))) warn(r, std::move(plan.error()));
     return false;
   }
   const model::CommandId serves = served_by(waiting);
@@ -212,10 +217,9 @@ void Planner::commit_escape(PlannedMotion e, const model::CommandId& serves, Ins
   e.assessment.reason = Reason::escape;
   b.way_back.push_back(undoing(e.motion->motion()));
   b.escapes.push_front(std::move(escape));
-  commit_next(b, candidate_of(b, e.motion), std::move(e.assessment), now + options_.lead, out);
-  CommandStatus& status = b.committed->command.status;
-  status.text = fmt::format("{} goes {} to make room for {}", b.robot->name.str(), to_string(e.way), serves.str());
-  publish(status, out);
+  const std::string where = e.way == model::EscapeWay::retreat ? "back where it came from" : to_string(e.way);
+  commit_next(b, candidate_of(b, e.motion), std::move(e.assessment), now + options_.lead, out,
+              fmt::format("{} goes {} to make room for {}", b.robot->name.str(), where, serves.str()));
   rejudge_queue(b, out);
 }
 
@@ -229,6 +233,7 @@ void Planner::warn(RobotRecord& r, EscapeRefusals refusals) {
   if (circle.empty()) {
     for (const model::RobotIndex b : r.blockers) who += fmt::format("{}{}", who.empty() ? "" : ", ", robots_[b].robot->name.str());
   }
+  r.blockers_told = r.blockers;
   status.state = CommandState::waiting;
   status.reason = Reason::deadlock;
   status.refusals = std::move(refusals);

@@ -105,9 +105,11 @@ void Planner::revoke_dependents(model::RobotIndex robot, Decisions& out) {
     if (!meets) continue;
     if (r.committed->phase == Commitment::Phase::held) {
       put_back(r, Reason::none, {}, out);
-    } else {
-      out.withdrawals.push_back({r.committed->command.status.id, r.robot->name, r.committed->command.attempts});
+      continue;
     }
+    const model::CommandId& id = r.committed->command.status.id;
+    const bool said = std::any_of(out.withdrawals.begin(), out.withdrawals.end(), [&](const auto& w) { return w.id == id; });
+    if (!said) out.withdrawals.push_back({id, r.robot->name, r.committed->command.attempts});
   }
 }
 

@@ -49,18 +49,19 @@ struct RobotRecord {
   bool ready = true;     ///< its controller would accept a command
   bool foreign = false;  ///< moves although nobody here told it to
   Instant last_heard{};
-  Instant known_at = model::kEarliest;          ///< newest instant that any report tells of; an older posture says nothing any more
-  std::optional<model::PostureReported> stood;  ///< newest posture that saw it standing
-  SampledMotionPtr standing;                    ///< where it stands, or stood when its motion began
-  std::deque<QueuedCommand> queue;              ///< main queue: admitted, in order
-  std::deque<QueuedCommand> escapes;            ///< escape queue: goes before the main queue
-  std::vector<model::MotionRequest> way_back;   ///< undoes the escapes since the robot's last own command, the newest last
-  std::deque<model::MotionRequest> trail;       ///< undoes its last motions, the newest first
-  std::vector<model::RobotIndex> blockers;      ///< that leave its next command no start, as last assessed
-  std::uint64_t room_sought = 0;                ///< revision of the scene for which room for its next command was sought in vain
-  std::uint64_t clearing_given_up = 0;          ///< likewise, clearing all space around it
-  std::optional<Commitment> committed;          ///< what it does now or next
-  std::optional<Commitment> following;          ///< what it does after that; only after an escape of its own, decided together with it
+  Instant known_at = model::kEarliest;           ///< newest instant that any report tells of; an older posture says nothing any more
+  std::optional<model::PostureReported> stood;   ///< newest posture that saw it standing
+  SampledMotionPtr standing;                     ///< where it stands, or stood when its motion began
+  std::deque<QueuedCommand> queue;               ///< main queue: admitted, in order
+  std::deque<QueuedCommand> escapes;             ///< escape queue: goes before the main queue
+  std::vector<model::MotionRequest> way_back;    ///< undoes the escapes since the robot's last own command, the newest last
+  std::deque<model::MotionRequest> trail;        ///< undoes its last motions, the newest first
+  std::vector<model::RobotIndex> blockers;       ///< that leave its next command no start, as last assessed
+  std::vector<model::RobotIndex> blockers_told;  ///< of whom people were told when they were asked for help
+  std::uint64_t room_sought = 0;                 ///< revision of the scene for which room for its next command was sought in vain
+  std::uint64_t clearing_given_up = 0;           ///< likewise, clearing all space around it
+  std::optional<Commitment> committed;           ///< what it does now or next
+  std::optional<Commitment> following;           ///< what it does after that; only after an escape of its own, decided together with it
   std::uint64_t last_serial = 0;
   std::uint64_t last_started = 0;  ///< serial of the newest commitment that began
   Instant ready_since{};           ///< since when the head of the queue could have gone

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 
+#include "common/app/evidence.hpp"
 #include "common/app/logging.hpp"
 #include "common/app/report.hpp"
 
@@ -33,14 +34,36 @@ std::uint64_t random_incarnation() {
   return value == 0 ? 1 : value;
 }
 
-core::PlannerOptions core_options(const model::Cell& cell, const PlannerNodeOptions& options) {
+core::PlannerOptions core_options(const model::Cell& cell, const PlannerNodeOptions& options, std::uint64_t incarnation) {
   core::PlannerOptions o;
   o.strategy = options.strategy.empty() ? cell.planning.strategy : options.strategy;
   o.lead = model::from_seconds(cell.planning.lead.value_or(kLead));
   o.confirm = o.lead;
   o.start_tolerance = model::from_seconds(cell.planning.start_tolerance.value_or(kStartTolerance));
   o.posture_timeout = kPostureTimeout;
+  o.escapes = cell.planning.escapes;
+  o.escape_prefix = fmt::format("escape-{:016x}-", incarnation);  // no client and no proxy has heard of such an id before
   return o;
+}
+
+/// All that was tried for a deadlocked command.
+std::string refusals_text(const std::vector<model::EscapeRefusal>& refusals) {
+  std::string text;
+  for (const auto& r : refusals) text += (text.empty() ? "" : "; ") + app::describe(r);
+  return text;
+}
+
+/// One line for each change of a command. A deadlock is a warning with everything a person needs to resolve it.
+void log_status(const model::CommandStatus& s) {
+  const app::LogField robot{"robot", s.robot.str()}, command{"command", s.id.str()}, text{"text", s.text};
+  if (s.reason == model::Reason::deadlock && !model::is_final(s.state)) {
+    log(LogLevel::warning, "deadlock", {robot, command, text, {"refusals", refusals_text(s.refusals)}});
+  } else if (s.escape) {
+    log(LogLevel::info, model::to_string(s.state),
+        {robot, {"escape", s.id.str()}, {"serves", s.serves.str()}, {"reason", model::to_string(s.reason)}, text});
+  } else {
+    log(LogLevel::info, model::to_string(s.state), {robot, command, {"reason", model::to_string(s.reason)}, text});
+  }
 }
 
 }  // namespace
@@ -57,7 +80,7 @@ PlannerNode::PlannerNode(app::LoadedCell cell, const PlannerNodeOptions& options
     : cell_(std::make_shared<const model::Cell>(std::move(cell.cell))),
       fingerprint_(cell.fingerprint),
       incarnation_(random_incarnation()),
-      planner_(cell_, core_options(*cell_, options)),
+      planner_(cell_, core_options(*cell_, options, incarnation_)),
       participant_({options.domain, "interlace-planner " + cell_->name}),
       states_(participant_, dds::topics::planner_state(cell_->name)) {
   for (const model::Robot& robot : cell_->robots) {
@@ -186,8 +209,7 @@ void PlannerNode::publish(const core::Decisions& decisions) {
   }
   for (const auto& s : decisions.statuses) {
     if (cell_->find(s.robot)) send(link_of(s.robot).statuses, dds::StatusMessage{incarnation_, s});
-    log(LogLevel::info, model::to_string(s.state),
-        {{"robot", s.robot.str()}, {"command", s.id.str()}, {"reason", model::to_string(s.reason)}, {"text", s.text}});
+    log_status(s);
   }
 }
 

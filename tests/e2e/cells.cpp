@@ -6,8 +6,21 @@ namespace interlace::test {
 
 namespace {
 
-std::string robot(const CellText& cell, const std::string& name, double y, const std::string& start) {
-  return fmt::format("  - name: {}\n    model: arm4\n    base: {{xyz: [0, {}, 0], rpy: [0, 0, 0]}}\n    start: {{{}}}\n", name, y, start) +
+constexpr const char* kJoints = "{min: [-170, -90, -175, -180, -135, -360], max: [170, 180, 250, 180, 135, 360]}";
+
+std::string arm(const std::string& name, const std::string& joints) {
+  return fmt::format(R"(  {}:
+    kinematics: {{type: opw, a1: 0, a2: 0, b: 0, c1: 290, c2: 260, c3: 270, c4: 90}}
+    joints: {}
+    tool: {{xyz: [0, 0, 0], rpy: [0, -90, 0]}}
+    capsules: {{chain: [112, 117, 100, 48]}}
+)",
+                     name, joints);
+}
+
+std::string robot(const CellText& cell, const std::string& name, const std::string& arm_name, double y, const std::string& start) {
+  return fmt::format("  - name: {}\n    model: {}\n    base: {{xyz: [0, {}, 0], rpy: [0, 0, 0]}}\n    start: {{{}}}\n", name, arm_name, y,
+                     start) +
          fmt::format("    tcp: {{velocity: {}, acceleration: {}}}\n", cell.velocity, cell.acceleration) +
          (cell.controller.empty() ? "" : fmt::format("    controller: {}\n", cell.controller));
 }
@@ -26,16 +39,12 @@ std::string cell_text(const CellText& cell) {
 units: {{length: mm, angle: deg}}
 cell: {}
 models:
-  arm4:
-    kinematics: {{type: opw, a1: 0, a2: 0, b: 0, c1: 290, c2: 260, c3: 270, c4: 90}}
-    joints: {{min: [-170, -90, -175, -180, -135, -360], max: [170, 180, 250, 180, 135, 360]}}
-    tool: {{xyz: [0, 0, 0], rpy: [0, -90, 0]}}
-    capsules: {{chain: [112, 117, 100, 48]}}
-robots:
 )",
                      cell.name) +
-         robot(cell, "r1", 250, "xyz: [450, 250, 300], rpy: [0, 0, 0]") + robot(cell, "r2", -250, cell.r2_start) +
-         fmt::format("planning: {{resolution: 0.01, margin: 0, strategy: {}}}\n", cell.strategy);
+         arm("arm4", kJoints) + (cell.r2_joints.empty() ? "" : arm("other", cell.r2_joints)) + "robots:\n" +
+         robot(cell, "r1", "arm4", 250, "xyz: [450, 250, 300], rpy: [0, 0, 0]") +
+         robot(cell, "r2", cell.r2_joints.empty() ? "arm4" : "other", -250, cell.r2_start) +
+         fmt::format("planning: {{resolution: 0.01, margin: 0, strategy: {}, escapes: {}}}\n", cell.strategy, cell.escapes);
 }
 
 std::string linear(double x, double y, double z) {

@@ -13,6 +13,8 @@ struct CellText {
   std::string controller;      ///< of both robots, such as "{start_latency: 0.02}"; empty: ideal
   std::string strategy = "event";
   std::string r2_start = "xyz: [450, -250, 300], rpy: [0, 0, 0]";
+  std::string r2_joints;  ///< limits of its joints alone, such as "{min: [...], max: [...]}"; empty: as those of r1
+  bool escapes = true;
 };
 
 /// The cell file.

@@ -95,7 +95,7 @@ std::optional<model::Box> read_box(const Field& field, const Units& units) {
 
 model::PlanningOptions read_planning(const Field& field, const Units& units) {
   model::PlanningOptions options;
-  const auto mapping = field.mapping({"resolution", "margin", "strategy", "lead", "start_tolerance", "zone"});
+  const auto mapping = field.mapping({"resolution", "margin", "strategy", "escapes", "lead", "start_tolerance", "zone"});
   if (!mapping) return options;
   options.margin = number_or(*mapping, "margin", length(units), options.margin);
   options.lead = optional_number(*mapping, "lead", seconds(kLongestWait));
@@ -109,6 +109,7 @@ model::PlanningOptions read_planning(const Field& field, const Units& units) {
     const auto index = strategy->one_of(strategy_names());
     if (index) options.strategy = strategy_names()[*index];
   }
+  if (const auto escapes = mapping->find("escapes")) options.escapes = escapes->one_of({"true", "false"}).value_or(0) == 0;
   if (const auto zone = mapping->find("zone")) options.zone = read_box(*zone, units);
   return options;
 }

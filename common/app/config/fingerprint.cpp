@@ -99,6 +99,7 @@ std::uint64_t fingerprint(const model::Cell& cell) {
   out.number(cell.planning.resolution);
   out.number(cell.planning.margin);
   out.text(cell.planning.strategy);
+  out.count(cell.planning.escapes ? 1 : 0);
   out.maybe(cell.planning.lead);
   out.maybe(cell.planning.start_tolerance);
   out.count(cell.planning.zone ? 1 : 0);

@@ -75,7 +75,7 @@ void expect_refusals(const dds::Topic<Message>& topic, const Message& good, cons
 TEST(Refusal, Command) {
   expect_refusals<dds::CommandMessage>(dds::topics::command("cell", kRobot), linear_command(),
                                        {
-                                           {"version: 2", [](auto& c) { c.version(2); }},
+                                           {"version: 1", [](auto& c) { c.version(1); }},
                                            {"version 0", [](auto& c) { c.version(0); }},
                                            {"kind: 4", [](auto& c) { c.kind(static_cast<wire::CommandKind>(4)); }},
                                            {"kind: 4294967295", [](auto& c) { c.kind(static_cast<wire::CommandKind>(0xFFFFFFFF)); }},
@@ -117,8 +117,10 @@ TEST(Refusal, CommandStatus) {
           {"version: 7", [](auto& s) { s.version(7); }},
           {"id: 'a/b'", [](auto& s) { s.id("a/b"); }},
           {"robot: 'r9'", [](auto& s) { s.robot("r9"); }},
+          {"serves: 'a b'", [](auto& s) { s.serves("a b"); }},
+          {"serves: 'xxx", [](auto& s) { s.serves(std::string(65, 'x')); }},
           {"state: 8", [](auto& s) { s.state(static_cast<wire::CommandState>(8)); }},
-          {"reason: 17", [](auto& s) { s.reason(static_cast<wire::ReasonCode>(17)); }},
+          {"reason: 19", [](auto& s) { s.reason(static_cast<wire::ReasonCode>(19)); }},
           {"text: 'two?lines' holds control", [](auto& s) { s.text("two\nlines"); }},
           {"text: '?' holds control characters or is not UTF-8", [](auto& s) { s.text("\xC0"); }},
           {"is too long", [](auto& s) { s.text(std::string(257, 't')); }},
@@ -133,13 +135,18 @@ TEST(Refusal, CommandStatus) {
           {"conflicts.from: 4", [](auto& s) { s.conflicts()[0].from(4'000'000'000'000'000'000); }},
           {"conflicts.clearance: -inf", [](auto& s) { s.conflicts()[0].clearance(-kInfinity); }},
           {"conflicts.place.z: nan", [](auto& s) { s.conflicts()[0].place().z(kNaN); }},
+          {"malformed", [](auto& s) { s.refusals().resize(17); }},
+          {"refusals.robot: ''", [](auto& s) { s.refusals()[1].robot(""); }},
+          {"refusals.way: 8", [](auto& s) { s.refusals()[1].way(static_cast<wire::EscapeWay>(8)); }},
+          {"refusals.text: 'a?b' holds control", [](auto& s) { s.refusals()[0].text("a\tb"); }},
+          {"is too long", [](auto& s) { s.refusals()[0].text(std::string(257, 't')); }},
       });
 }
 
 TEST(Refusal, Dispatch) {
   expect_refusals<dds::DispatchMessage>(dds::topics::dispatch("cell", kRobot), execute(),
                                         {
-                                            {"version: 2", [](auto& d) { d.version(2); }},
+                                            {"version: 1", [](auto& d) { d.version(1); }},
                                             {"planner_incarnation: 0", [](auto& d) { d.planner_incarnation(0); }},
                                             {"kind: 3", [](auto& d) { d.kind(static_cast<wire::DispatchKind>(3)); }},
                                             {"motion_kind: 2", [](auto& d) { d.motion_kind(static_cast<wire::MotionKind>(2)); }},
@@ -156,7 +163,7 @@ TEST(Refusal, Dispatch) {
 TEST(Refusal, Execution) {
   expect_refusals<dds::ExecutionMessage>(dds::topics::execution("cell", kRobot), execution(),
                                          {
-                                             {"version: 2", [](auto& e) { e.version(2); }},
+                                             {"version: 1", [](auto& e) { e.version(1); }},
                                              {"robot: 'r2'", [](auto& e) { e.robot("r2"); }},
                                              {"id: ''", [](auto& e) { e.id(""); }},
                                              {"state: 6", [](auto& e) { e.state(static_cast<wire::ExecutionState>(6)); }},
@@ -170,7 +177,7 @@ TEST(Refusal, Execution) {
 TEST(Refusal, Posture) {
   expect_refusals<dds::PostureMessage>(dds::topics::posture("cell", kRobot), posture(),
                                        {
-                                           {"version: 2", [](auto& p) { p.version(2); }},
+                                           {"version: 1", [](auto& p) { p.version(1); }},
                                            {"robot: 'r2'", [](auto& p) { p.robot("r2"); }},
                                            {"proxy_incarnation: 0", [](auto& p) { p.proxy_incarnation(0); }},
                                            {"proxy_sent: 9223372036854775807", [](auto& p) { p.proxy_sent(wire::FOREVER); }},
@@ -184,20 +191,25 @@ TEST(Refusal, Posture) {
 }
 
 TEST(Refusal, PlannerState) {
-  expect_refusals<model::PlannerState>(dds::topics::planner_state("cell"), planner_state("cell"),
-                                       {
-                                           {"version: 2", [](auto& s) { s.version(2); }},
-                                           {"cell: 'other'", [](auto& s) { s.cell("other"); }},
-                                           {"incarnation: 0", [](auto& s) { s.incarnation(0); }},
-                                           {"at: -9223372036854775808", [](auto& s) { s.at(std::numeric_limits<std::int64_t>::min()); }},
-                                           {"strategy: ''", [](auto& s) { s.strategy(""); }},
-                                           {"robots.name: ''", [](auto& s) { s.robots()[1].name(""); }},
-                                           {"robots.mode: 4", [](auto& s) { s.robots()[0].mode(static_cast<wire::RobotMode>(4)); }},
-                                           {"robots.current: 'a b'", [](auto& s) { s.robots()[0].current("a b"); }},
-                                           {"robots.reason: 99", [](auto& s) { s.robots()[0].reason(static_cast<wire::ReasonCode>(99)); }},
-                                           {"robots.text: '?'", [](auto& s) { s.robots()[0].text("\x7f"); }},
-                                           {"conflicts.place.y: nan", [](auto& s) { s.robots()[1].conflicts()[0].place().y(kNaN); }},
-                                       });
+  expect_refusals<model::PlannerState>(
+      dds::topics::planner_state("cell"), planner_state("cell"),
+      {
+          {"version: 1", [](auto& s) { s.version(1); }},
+          {"cell: 'other'", [](auto& s) { s.cell("other"); }},
+          {"incarnation: 0", [](auto& s) { s.incarnation(0); }},
+          {"at: -9223372036854775808", [](auto& s) { s.at(std::numeric_limits<std::int64_t>::min()); }},
+          {"strategy: ''", [](auto& s) { s.strategy(""); }},
+          {"robots.name: ''", [](auto& s) { s.robots()[1].name(""); }},
+          {"robots.mode: 4", [](auto& s) { s.robots()[0].mode(static_cast<wire::RobotMode>(4)); }},
+          {"robots.current: 'a b'", [](auto& s) { s.robots()[0].current("a b"); }},
+          {"robots.serves: 'a b'", [](auto& s) { s.robots()[1].serves("a b"); }},
+          {"robots.reason: 99", [](auto& s) { s.robots()[0].reason(static_cast<wire::ReasonCode>(99)); }},
+          {"robots.text: '?'", [](auto& s) { s.robots()[0].text("\x7f"); }},
+          {"conflicts.place.y: nan", [](auto& s) { s.robots()[1].conflicts()[0].place().y(kNaN); }},
+          {"malformed", [](auto& s) { s.robots()[0].refusals().resize(17); }},
+          {"refusals.robot: 'a b'", [](auto& s) { s.robots()[1].refusals()[0].robot("a b"); }},
+          {"refusals.way: 9", [](auto& s) { s.robots()[1].refusals()[1].way(static_cast<wire::EscapeWay>(9)); }},
+      });
 }
 
 /// Sends each of `bad` as bytes of `type_name` and expects it refused as malformed, then the good sample accepted.
@@ -261,10 +273,13 @@ TEST(Malformed, Command) {
 TEST(Malformed, CommandStatusThatClaimsTooMuch) {
   dds::StatusMessage none = status();
   none.status.conflicts.clear();
+  none.status.refusals.clear();
   const Bytes good = serialised(dds::to_wire(none));
-  const std::size_t count = good.size() - 4;  // the sequence comes last
+  const std::size_t refusals = good.size() - 4;  // the sequences come last
+  const std::size_t conflicts = refusals - 4;
   expect_malformed(dds::topics::command_status("cell", kRobot), "interlace::CommandStatus", false, none,
-                   {patched(good, count, 17), patched(good, count, 100'000'000), patched(good, count, 0xFFFFFFFF)});
+                   {patched(good, conflicts, 17), patched(good, conflicts, 100'000'000), patched(good, conflicts, 0xFFFFFFFF),
+                    patched(good, refusals, 17), patched(good, refusals, 100'000'000), patched(good, refusals, 0xFFFFFFFF)});
 }
 
 TEST(Malformed, PlannerStateThatClaimsTooMuch) {

@@ -36,6 +36,15 @@ void expect_same(const std::vector<model::Conflict>& sent, const std::vector<mod
   }
 }
 
+void expect_same(const std::vector<model::EscapeRefusal>& sent, const std::vector<model::EscapeRefusal>& got) {
+  ASSERT_EQ(sent.size(), got.size());
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    EXPECT_EQ(sent[i].robot, got[i].robot);
+    EXPECT_EQ(sent[i].way, got[i].way);
+    EXPECT_EQ(sent[i].text, got[i].text);
+  }
+}
+
 TEST(RoundTrip, Command) {
   Pair pair{dds::topics::command("cell", kRobot)};
   ASSERT_TRUE(pair.match());
@@ -70,6 +79,7 @@ TEST(RoundTrip, CommandStatus) {
   EXPECT_EQ(got->status.id, sent.status.id);
   EXPECT_EQ(got->status.robot, sent.status.robot);
   EXPECT_EQ(got->status.escape, sent.status.escape);
+  EXPECT_EQ(got->status.serves, sent.status.serves);
   EXPECT_EQ(got->status.state, sent.status.state);
   EXPECT_EQ(got->status.reason, sent.status.reason);
   EXPECT_EQ(got->status.text, sent.status.text);
@@ -78,16 +88,25 @@ TEST(RoundTrip, CommandStatus) {
   EXPECT_EQ(got->status.end, sent.status.end);
   EXPECT_EQ(got->status.delay, sent.status.delay);
   expect_same(sent.status.conflicts, got->status.conflicts);
+  expect_same(sent.status.refusals, got->status.refusals);
 
   dds::StatusMessage wordy = status();
   wordy.status.start.reset();
   wordy.status.text = std::string(300, 'x') + "\n";
   wordy.status.conflicts.assign(40, conflict());
+  wordy.status.serves = model::CommandId{};
+  // An umlaut across the bound: it goes as a whole.
+  wordy.status.refusals.assign(17, {model::RobotName{"r2"}, model::EscapeWay::retreat, std::string(255, 'x') + "ä"});
+  wordy.status.refusals.front().way = model::EscapeWay::plus_x;
   const auto cut = pair.pass(wordy);
   ASSERT_TRUE(cut) << pair.writer.last_refusal();
   EXPECT_EQ(cut->status.text.size(), 256u);
   EXPECT_EQ(cut->status.conflicts.size(), 16u);
   EXPECT_FALSE(cut->status.start);
+  EXPECT_TRUE(cut->status.serves.empty());
+  ASSERT_EQ(cut->status.refusals.size(), 16u);
+  EXPECT_EQ(cut->status.refusals.front().way, model::EscapeWay::plus_x) << "the first ones are kept";
+  EXPECT_EQ(cut->status.refusals.back().text, std::string(255, 'x'));
 }
 
 TEST(RoundTrip, Dispatch) {
@@ -183,9 +202,11 @@ TEST(RoundTrip, PlannerState) {
     EXPECT_EQ(got->robots[i].mode, sent.robots[i].mode);
     EXPECT_EQ(got->robots[i].queued, sent.robots[i].queued);
     EXPECT_EQ(got->robots[i].current, sent.robots[i].current);
+    EXPECT_EQ(got->robots[i].serves, sent.robots[i].serves);
     EXPECT_EQ(got->robots[i].reason, sent.robots[i].reason);
     EXPECT_EQ(got->robots[i].text, sent.robots[i].text);
     expect_same(sent.robots[i].conflicts, got->robots[i].conflicts);
+    expect_same(sent.robots[i].refusals, got->robots[i].refusals);
   }
 }
 
@@ -199,11 +220,13 @@ TEST(RoundTrip, LargestPlannerState) {
     sent.robots.push_back(robot_status("robot-" + std::to_string(r)));
     sent.robots.back().text = std::string(256, 't');
     sent.robots.back().conflicts.assign(16, conflict());
+    sent.robots.back().refusals.assign(16, {model::RobotName{std::string(64, 'r')}, model::EscapeWay::home, std::string(256, 'w')});
   }
   const auto got = pair.pass(sent);
   ASSERT_TRUE(got) << pair.writer.last_refusal();
   ASSERT_EQ(got->robots.size(), 128u);
   EXPECT_EQ(got->robots[127].conflicts.size(), 16u);
+  expect_same(sent.robots[127].refusals, got->robots[127].refusals);
 
   sent.robots.push_back(robot_status("one-too-many"));
   EXPECT_FALSE(pair.writer.write(sent));

@@ -52,11 +52,17 @@ inline model::Conflict conflict() {
   return {model::RobotName{"r2"}, "link2", "eef", at(1.5), model::kForever, -0.012, model::Vector3{0.3, 0, 0.2}};
 }
 
+inline std::vector<model::EscapeRefusal> refusals() {
+  return {{model::RobotName{"r2"}, model::EscapeWay::minus_y, "r3 stands there — 12 mm"},
+          {model::RobotName{"r3"}, model::EscapeWay::home, ""}};
+}
+
 inline dds::StatusMessage status() {
   model::CommandStatus s;
   s.id = model::CommandId{"c-1"};
   s.robot = kRobot;
   s.escape = true;
+  s.serves = model::CommandId{"c-0"};
   s.state = model::CommandState::scheduled;
   s.reason = model::Reason::delayed;
   s.text = "waits for r2 — 1.2 s";
@@ -65,6 +71,7 @@ inline dds::StatusMessage status() {
   s.end = at(4.75);
   s.delay = 1.25;
   s.conflicts = {conflict(), conflict()};
+  s.refusals = refusals();
   return {42, s};
 }
 
@@ -107,8 +114,15 @@ inline dds::PostureMessage posture(const model::RobotName& robot = kRobot) {
 }
 
 inline model::RobotStatus robot_status(const std::string& name) {
-  return {model::RobotName{name}, model::RobotMode::commanded, 3,           model::CommandId{"c-1"},
-          model::Reason::blocked, "r2 stands there",           {conflict()}};
+  return {model::RobotName{name},
+          model::RobotMode::commanded,
+          3,
+          model::CommandId{"c-1"},
+          model::Reason::blocked,
+          "r2 stands there",
+          {conflict()},
+          refusals(),
+          model::CommandId{"c-0"}};
 }
 
 inline model::PlannerState planner_state(const std::string& cell) {

@@ -192,6 +192,53 @@ TEST_F(LedgerTest, OthersCommandsArePassedOnAsSuch) {
   EXPECT_EQ(ledger.find(CommandId{"escape"}), nullptr);
 }
 
+TEST_F(LedgerTest, EscapesArePassedOnAndLeaveTheOwnCommandsAlone) {
+  ledger.submit(command("a"));
+  ASSERT_EQ(due(kStart), Ids{"a"});
+  told("a", CommandState::waiting, kStart);
+  (void)ledger.take_news();
+  auto escape = status("escape-7-1", CommandState::scheduled, "r2");
+  escape.escape = true;
+  escape.serves = CommandId{"a"};
+  for (const auto state : {CommandState::scheduled, CommandState::started, CommandState::completed}) {
+    escape.state = state;
+    ledger.on_status(kPlanner, escape, kStart + 1ms);
+  }
+  const auto news = ledger.take_news();
+  ASSERT_EQ(news.size(), 3u);
+  for (const Answer& answer : news) {
+    EXPECT_FALSE(answer.own);
+    EXPECT_TRUE(answer.told);
+    EXPECT_EQ(answer.status.serves.str(), "a");
+  }
+  EXPECT_EQ(ledger.open(), 1u);
+  EXPECT_EQ(ledger.find(escape.id), nullptr);
+}
+
+TEST_F(LedgerTest, CancelOfAnEscapeIsAnsweredByAnyNewsOfIt) {
+  ledger.cancel(RobotName{"r2"}, CommandId{"escape-7-1"});
+  ASSERT_EQ(due(kStart), Ids{"cancel escape-7-1"});
+  auto escape = status("escape-7-1", CommandState::waiting, "r2");
+  escape.escape = true;
+  ledger.on_status(kPlanner, escape, kStart + 1ms);
+  EXPECT_TRUE(known("escape-7-1").escape);
+  EXPECT_EQ(due(kStart + 1h), Ids{});
+}
+
+TEST_F(LedgerTest, OtherRefusalsOfADeadlockAreNews) {
+  ledger.submit(command("a"));
+  (void)due(kStart);
+  auto deadlock = status("a", CommandState::waiting);
+  deadlock.reason = Reason::deadlock;
+  deadlock.refusals = {{RobotName{"r2"}, model::EscapeWay::home, "it is at home"}};
+  ledger.on_status(kPlanner, deadlock, kStart);
+  ledger.on_status(kPlanner, deadlock, kStart);
+  EXPECT_EQ(ledger.take_news().size(), 1u);
+  deadlock.refusals[0].text = "r3 stands there";
+  ledger.on_status(kPlanner, deadlock, kStart);
+  EXPECT_EQ(ledger.take_news().size(), 1u);
+}
+
 TEST_F(LedgerTest, CancelBeforeItWasSentIsFinalOnTheSpot) {
   ledger.submit(command("a"));
   ledger.submit(command("b"));

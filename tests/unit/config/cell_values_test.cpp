@@ -52,6 +52,7 @@ TEST(CellValues, EveryKeyArrivesInSiUnits) {
   EXPECT_DOUBLE_EQ(cell.planning.resolution, 0.02);
   EXPECT_DOUBLE_EQ(cell.planning.margin, 0.005);
   EXPECT_EQ(cell.planning.strategy, "direct");
+  EXPECT_FALSE(cell.planning.escapes);
   EXPECT_DOUBLE_EQ(cell.planning.lead.value_or(0), 0.05);
   EXPECT_DOUBLE_EQ(cell.planning.start_tolerance.value_or(0), 0.03);
   ASSERT_TRUE(cell.planning.zone);
@@ -86,6 +87,7 @@ robots:
   EXPECT_EQ(robot.model.self_pairs, model::default_self_pairs(robot.model.capsules));
   EXPECT_FALSE(cell.planning.zone);
   EXPECT_EQ(cell.planning.strategy, "event");
+  EXPECT_TRUE(cell.planning.escapes);
   EXPECT_DOUBLE_EQ(cell.planning.resolution, 0.01);
   EXPECT_FALSE(cell.planning.lead);
 }

@@ -76,6 +76,7 @@ TEST(Fingerprint, EveryChangeOfAValueChangesIt) {
                                                                  {"resolution: 0.02", "resolution: 0.01"},
                                                                  {"margin: 5", "margin: 6"},
                                                                  {"strategy: direct", "strategy: event"},
+                                                                 {"escapes: false", "escapes: true"},
                                                                  {"lead: 0.05", "lead: 0.06"},
                                                                  {"  start_tolerance: 0.03\n", ""},
                                                                  {"min: [100, -130", "min: [100, -131"},

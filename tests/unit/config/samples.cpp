@@ -58,6 +58,7 @@ planning:
   strategy: direct
   lead: 0.05
   start_tolerance: 0.03
+  escapes: false
   zone: {min: [100, -130, 0], max: [600, 130, 900]}
 )";
 
