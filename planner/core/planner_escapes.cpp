@@ -82,7 +82,8 @@ bool Planner::make_room_for(RobotRecord& r, Instant now, Decisions& out) {
   EscapeSearch search{*cell_, std::move(views), *strategy_, timing_at(now), maps_};
   auto plan = search.make_room(served);
   if (!plan) {
-    if (all_stand()) warn(r, std::move(plan.error()));
+    // Who waits for a robot that is not heard from waits for it to come back: no command of a person could move it.
+    if (all_stand() && waiting.status.reason != Reason::robot_unknown) warn(r, std::move(plan.error()));
     return false;
   }
   // A way back makes no room for itself: what it leads to is what the escapes serve.
