@@ -47,7 +47,9 @@ bool Planner::make_room(Instant now, Decisions& out) {
   const WaitGraph graph = wait_graph();
   std::vector<RobotRecord*> deadlocked;
   for (RobotRecord* r : candidates()) {
-    if (graph.deadlocked(index_of(*r))) deadlocked.push_back(r);
+    const bool knows_all = std::none_of(r->blockers.begin(), r->blockers.end(),
+                                        [&](model::RobotIndex b) { return graph.node(b).state == WaitNode::State::unknown; });
+    if (graph.deadlocked(index_of(*r)) && knows_all) deadlocked.push_back(r);
   }
   // First whoever is kept by idle robots or by a circle he is part of: clearing those clears the queue of others behind them.
   const auto at_the_root = [&](const RobotRecord* r) {
@@ -192,7 +194,8 @@ bool Planner::make_room_for(RobotRecord& r, Instant now, Decisions& out) {
   const Candidate served = candidate_of(r, waiting.motion);
   auto plan = escape_search(now).make_room(served, waiting.request);
   if (!plan) {
-    if (all_stand_around(around(r))) warn(r, std::move(plan.error()));
+    // Who waits for a robot that is not heard from waits for it to come back: no command of a person could move it.
+    if (waiting.status.reason != Reason::robot_unknown && all_stand_around(around(r))) warn(r, std::move(plan.error()));
     return false;
   }
   const model::CommandId serves = served_by(waiting);

@@ -269,7 +269,7 @@ TEST(Standoff, CorridorWhereOnlyRetreatWorks) {
   const auto escapes = s.escapes();
   ASSERT_EQ(escapes.size(), 1U) << s.story();
   EXPECT_EQ(escapes.front().robot, "r2");
-  EXPECT_NE(escapes.front().text.find("retreat"), std::string::npos) << escapes.front().text;
+  EXPECT_NE(escapes.front().text.find("goes back"), std::string::npos) << escapes.front().text;
   // Back to the joints it came from, as exactly as controllers arrive [rad].
   EXPECT_LT((escapes.front().to - t.aside).cwiseAbs().maxCoeff(), 1e-6);
   for (int axis = 0; axis < 3; ++axis) {
