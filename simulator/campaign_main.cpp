@@ -11,6 +11,7 @@
 
 #include "common/app/command_line.hpp"
 #include "common/app/config/cell_file.hpp"
+#include "common/app/guarded_main.hpp"
 #include "common/app/signals.hpp"
 #include "planner/core/strategy.hpp"
 #include "simulator/campaign.hpp"
@@ -129,12 +130,9 @@ ExitCode run(Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
+  return app::guarded_main("interlace-campaign", [&] {
     Arguments arguments;
-    if (const auto code = parse(argc, argv, arguments)) return app::to_int(*code);
-    return app::to_int(run(arguments));
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "interlace-campaign: {}\n", e.what());
-    return app::to_int(ExitCode::fault);
-  }
+    const auto code = parse(argc, argv, arguments);
+    return code ? *code : run(arguments);
+  });
 }

@@ -7,6 +7,7 @@
 #include "common/app/config/cell_file.hpp"
 #include "common/app/config/document.hpp"
 #include "common/app/config/program_text.hpp"
+#include "common/app/guarded_main.hpp"
 #include "simulator/generator.hpp"
 
 using namespace interlace;
@@ -73,12 +74,9 @@ ExitCode run(const Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
+  return app::guarded_main("interlace-generate", [&] {
     Arguments arguments;
-    if (const auto code = parse(argc, argv, arguments)) return app::to_int(*code);
-    return app::to_int(run(arguments));
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "interlace-generate: {}\n", e.what());
-    return app::to_int(ExitCode::fault);
-  }
+    const auto code = parse(argc, argv, arguments);
+    return code ? *code : run(arguments);
+  });
 }

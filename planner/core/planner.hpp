@@ -74,7 +74,8 @@ class Planner {
 
   // Commands: planner_commands.cpp
   void reject(model::CommandStatus status, model::Reason reason, std::string text, Decisions& out);
-  [[nodiscard]] model::Result<SampledMotionPtr, model::MotionError> admit_next(RobotRecord& r, const QueuedCommand& command);
+  [[nodiscard]] model::Result<std::vector<SampledMotionPtr>, model::MotionError> chain_from(const RobotRecord& r, model::Joints from) const;
+  [[nodiscard]] model::Result<std::vector<SampledMotionPtr>, model::MotionError> judge_queue(RobotRecord& r);
   void rejudge_queue(RobotRecord& r, Decisions& out);
   void drop_escapes(RobotRecord& r, Decisions& out);
   bool cancel(RobotRecord& r, const model::CommandId& id, Decisions& out);

@@ -19,6 +19,12 @@ bool same_message(const CommandStatus& a, const CommandStatus& b) {
   return a.state == b.state && a.reason == b.reason && a.start == b.start && a.end == b.end && a.text == b.text;
 }
 
+/// Nearer than controllers and rounding tell apart [rad], and far below what the maps add for rounding.
+bool same_joints(const model::Joints& a, const model::Joints& b) {
+  constexpr double kSame = 1e-9;
+  return (a - b).cwiseAbs().maxCoeff() <= kSame;
+}
+
 }  // namespace
 
 void Planner::publish(const CommandStatus& status, Decisions& out) {
@@ -69,7 +75,16 @@ Decisions Planner::on(const model::CommandSubmitted& event, Instant now) {
   command.status = status;
   command.request = event.motion;
   command.priority = event.priority;
-  auto motion = r.queue.empty() ? admit_next(r, command) : admit(*cell_, *index, r.joints_at_end(), event.motion);
+  // The first in the queue may need the way back from an escape; the others start where the one before them ends.
+  model::Result<SampledMotionPtr, model::MotionError> motion;
+  if (r.queue.empty()) {
+    r.queue.push_back(command);
+    auto chain = judge_queue(r);
+    r.queue.pop_back();
+    motion = chain ? model::Result<SampledMotionPtr, model::MotionError>{chain->front()} : model::unexpected(chain.error());
+  } else {
+    motion = admit(*cell_, *index, r.joints_at_end(), event.motion);
+  }
   if (!motion) {
     reject(status, motion.error().reason, motion.error().text, out);
     return out;
@@ -85,11 +100,28 @@ Decisions Planner::on(const model::CommandSubmitted& event, Instant now) {
   return out;
 }
 
-/// The motion of the command at the front of the main queue. When an escape has left the robot where the command is impossible, the way
-/// back to where it was judged from goes into the escape queue first.
-model::Result<SampledMotionPtr, model::MotionError> Planner::admit_next(RobotRecord& r, const QueuedCommand& command) {
+/// The motions of the commands in the main queue, one after the other from `from` on [rad]; those that stay as they are included.
+model::Result<std::vector<SampledMotionPtr>, model::MotionError> Planner::chain_from(const RobotRecord& r, model::Joints from) const {
+  std::vector<SampledMotionPtr> chain;
+  for (const QueuedCommand& command : r.queue) {
+    if (command.motion && same_joints(command.motion->motion().from(), from)) {
+      // From here on nothing changes.
+      for (std::size_t i = chain.size(); i < r.queue.size(); ++i) chain.push_back(r.queue[i].motion);
+      return chain;
+    }
+    auto motion = admit(*cell_, index_of(r), from, command.request);
+    if (!motion) return model::unexpected(motion.error());
+    from = (*motion)->motion().to();
+    chain.push_back(std::move(*motion));
+  }
+  return chain;
+}
+
+/// Judges the main queue from where the robot will be, as a whole. When an escape has left the robot where that is impossible, the way back
+/// to where the queue was judged from goes into the escape queue first, as far as it takes.
+model::Result<std::vector<SampledMotionPtr>, model::MotionError> Planner::judge_queue(RobotRecord& r) {
   model::Joints from = r.joints_after_motion();
-  auto direct = admit(*cell_, index_of(r), from, command.request);
+  auto direct = chain_from(r, from);
   if (direct || r.way_back.empty()) return direct;
   std::deque<QueuedCommand> way;
   for (auto back = r.way_back.rbegin(); back != r.way_back.rend(); ++back) {
@@ -101,15 +133,15 @@ model::Result<SampledMotionPtr, model::MotionError> Planner::admit_next(RobotRec
     escape.status.id = model::CommandId{options_.escape_prefix + std::to_string(++last_escape_)};
     escape.status.robot = r.robot->name;
     escape.status.escape = true;
-    escape.status.serves = command.status.id;
+    escape.status.serves = r.queue.front().status.id;
     escape.status.reason = Reason::escape;
-    escape.status.submitted = command.status.submitted;
+    escape.status.submitted = r.queue.front().status.submitted;
     escape.request = *back;
     escape.motion = std::move(*motion);
     way.push_back(std::move(escape));
-    if (auto motion_from_there = admit(*cell_, index_of(r), from, command.request)) {
+    if (auto chain = chain_from(r, from)) {
       r.escapes = std::move(way);
-      return motion_from_there;
+      return chain;
     }
   }
   return direct;
@@ -130,10 +162,15 @@ void Planner::drop_escapes(RobotRecord& r, Decisions& out) {
 void Planner::rejudge_queue(RobotRecord& r, Decisions& out) {
   ++revision_;
   drop_escapes(r, out);
+  if (const auto chain = judge_queue(r)) {
+    for (std::size_t i = 0; i < r.queue.size(); ++i) r.queue[i].motion = (*chain)[i];
+    return;
+  }
+  // Not all of it is possible any more: what is not is rejected.
   model::Joints from = r.joints_after_motion();
   for (auto it = r.queue.begin(); it != r.queue.end();) {
-    if ((it->motion->motion().from() - from).cwiseAbs().maxCoeff() > 0) {
-      auto motion = it == r.queue.begin() ? admit_next(r, *it) : admit(*cell_, index_of(r), from, it->request);
+    if (!same_joints(it->motion->motion().from(), from)) {
+      auto motion = admit(*cell_, index_of(r), from, it->request);
       if (!motion) {
         reject(it->status, motion.error().reason, fmt::format("no longer possible from where the robot is now: {}", motion.error().text),
                out);

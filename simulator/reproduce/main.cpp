@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/app/command_line.hpp"
+#include "common/app/guarded_main.hpp"
 #include "planner/core/strategy.hpp"
 #include "simulator/reproduce/results_page.hpp"
 
@@ -167,15 +168,14 @@ ExitCode run(const Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
+  return app::guarded_main("interlace-reproduce", [&] {
     Arguments arguments;
-    if (const auto code = parse(argc, argv, arguments)) return app::to_int(*code);
-    return app::to_int(run(arguments));
-  } catch (const BadInput& e) {
-    fmt::print(stderr, "{}\n", e.what());
-    return app::to_int(ExitCode::bad_input);
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "interlace-reproduce: {}\n", e.what());
-    return app::to_int(ExitCode::fault);
-  }
+    const auto code = parse(argc, argv, arguments);
+    try {
+      return code ? *code : run(arguments);
+    } catch (const BadInput& e) {
+      fmt::print(stderr, "{}\n", e.what());
+      return ExitCode::bad_input;
+    }
+  });
 }
