@@ -363,10 +363,9 @@ TEST_F(Sim, ACommandLeftUnservedIsExitCodeOne) {
   const std::string program = scratch_.file(
       "deadlock.yaml", program_text({"{move: linear, at: 3, to: {xyz: [350, 0, 200], rpy: [0, 0, 0]}}"}, {linear(350, 0, 200)}));
   const std::string report = scratch_.path("report.json");
-  // Nobody may be sent away in this cell.
-  std::string text = read_text(cell_);
-  text.replace(text.find("strategy: event"), 15, "strategy: event, escapes: false");
-  const std::string cell = scratch_.file("nobody-escapes.yaml", text);
+  CellText nobody_escapes;
+  nobody_escapes.escapes = false;
+  const std::string cell = scratch_.file("nobody-escapes.yaml", cell_text(nobody_escapes));
   const Outcome o = run({kSim, cell, program, "--report", report});
   EXPECT_EQ(o.exit_code, 1) << o;
   const auto r = nlohmann::json::parse(read_text(report)).at(0);
