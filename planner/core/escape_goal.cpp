@@ -43,7 +43,7 @@ std::array<EscapeDirection, 6> escape_directions(const Cuboid& cuboid, const Vec
                                           EscapeWay::minus_y, EscapeWay::plus_z,  EscapeWay::minus_z};
   std::array<EscapeDirection, 6> directions;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto up = static_cast<std::size_t>(2 * axis);
+    const std::size_t up = 2 * static_cast<std::size_t>(axis);
     directions[up] = {ways[up], Vector3::Unit(axis), std::abs(cuboid.max[axis] - p[axis])};
     directions[up + 1] = {ways[up + 1], -Vector3::Unit(axis), std::abs(p[axis] - cuboid.min[axis])};
   }

@@ -75,7 +75,7 @@ std::string experiment_section(const ExperimentRun& run, const std::vector<Pictu
   }
   bool mapped = false;
   for (const Picture& p : pictures) {
-    if (!ends_with(p.file, "-map.svg")) continue;
+    if (!ends_with(p.file, "-map.svg") || p.file.find("-chart-") != std::string::npos) continue;
     mapped = true;
     text +=
         "Collision map, as in figures 3.6 and 6.11, of the first command that had to wait for a motion under way (`event`). Above the "
