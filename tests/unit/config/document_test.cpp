@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -79,22 +78,19 @@ TEST_F(Files, EndlessFileIsRefused) {
   EXPECT_EQ(message_of(load_cell("/dev/zero")).find("/dev/zero: larger than 1024 KiB"), 0U);
 }
 
-TEST_F(Files, TenMegabytesOfGarbageAreRefusedAtOnce) {
+TEST_F(Files, TenMegabytesOfGarbageAreRefused) {
   const unsigned seed = 20261;
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random{seed};
   std::string garbage(kTenMegabytes, '\0');
   for (auto& c : garbage) c = static_cast<char>(random());
   const auto file = write("garbage.yaml", garbage);
-  const auto begin = std::chrono::steady_clock::now();
   const auto from_file = load_cell(file);
   const auto from_text = parse_cell(garbage, "garbage.yaml");
   const auto program = load_program(file, nullptr);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   EXPECT_EQ(message_of(from_file), file + ": larger than 1024 KiB; no cell or program needs that");
   EXPECT_FALSE(from_text);
   EXPECT_FALSE(program);
-  EXPECT_LT(took.count(), 1.0) << "seconds; takes milliseconds, the rest is for a busy machine";
 }
 
 TEST(Document, ExactlyTheLargestSizeIsRead) {
@@ -157,27 +153,22 @@ TEST_P(DepthBomb, IsRefusedWithoutRecursion) {
   std::string bomb = "a: ";
   if (once[0] == '-' || once[0] == '?') bomb.clear();
   while (bomb.size() + once.size() < kMaxFileSize) bomb += once;
-  const auto begin = std::chrono::steady_clock::now();
   const auto result = parse_cell(bomb, "cell.yaml");
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   ASSERT_FALSE(result);
   EXPECT_NE(message_of(result).find("nested more than 12 deep"), std::string::npos) << message_of(result);
-  EXPECT_LT(took.count(), 5.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, DepthBomb, testing::Values("[", "{a: ", "- ", "? ", "[{a: ", "{? "));
 
-TEST(Document, WideFilesAreReadInReasonableTime) {
+// Reading that grew with the square of the file would not end within the time limit every test has.
+TEST(Document, WideFilesAreReadToTheEnd) {
   std::string wide = "interlace: 1\nprogram: [";
   while (wide.size() < kMaxFileSize - 10) wide += "0,";
   wide += "0]\n";
   std::string keys = "interlace: 1\n";
   for (int i = 0; keys.size() < kMaxFileSize - 20; ++i) keys += "k" + std::to_string(i) + ": 1\n";
   for (const auto& text : {wide, keys}) {
-    const auto begin = std::chrono::steady_clock::now();
     EXPECT_FALSE(parse_program(text, "program.yaml", nullptr));
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    EXPECT_LT(took.count(), 20.0) << "seconds; takes about one, the rest is for sanitizers and a busy machine";
   }
 }
 
