@@ -1,5 +1,7 @@
 #include "planner/core/neighbourhood.hpp"
 
+#include <set>
+
 #include "planner/core/reach.hpp"
 
 namespace interlace::core {
@@ -14,6 +16,14 @@ Neighbourhood::Neighbourhood(const model::Cell& cell) : meet_(cell.robots.size()
       meet_[a * volumes.size() + b] = true;
       neighbours_[a].push_back(b);
     }
+  }
+  for (RobotIndex a = 0; a < volumes.size(); ++a) {
+    std::set<RobotIndex> near{a};
+    for (const RobotIndex b : neighbours_[a]) {
+      near.insert(b);
+      near.insert(neighbours_[b].begin(), neighbours_[b].end());
+    }
+    around_.emplace_back(near.begin(), near.end());
   }
 }
 

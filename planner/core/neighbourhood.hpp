@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "common/model/cell.hpp"
@@ -22,9 +23,14 @@ class Neighbourhood {
   /// The robots that `robot` can meet, in ascending order.
   [[nodiscard]] const std::vector<RobotIndex>& of(RobotIndex robot) const { return neighbours_[robot]; }
 
+  /// `robot`, those it can meet and those that they can meet, in ascending order: all that a deadlock of it may need to move.
+  [[nodiscard]] const std::vector<RobotIndex>& around(RobotIndex robot) const { return around_[robot]; }
+  [[nodiscard]] bool near(RobotIndex a, RobotIndex b) const { return std::binary_search(around_[a].begin(), around_[a].end(), b); }
+
  private:
   std::vector<bool> meet_;
   std::vector<std::vector<RobotIndex>> neighbours_;
+  std::vector<std::vector<RobotIndex>> around_;
 };
 
 }  // namespace interlace::core

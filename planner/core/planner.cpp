@@ -55,7 +55,7 @@ void Planner::schedule(Instant now, Decisions& out) {
 std::vector<RobotRecord*> Planner::candidates() {
   std::vector<RobotRecord*> result;
   for (RobotRecord& r : robots_) {
-    const bool held_up = clearing_ && clearing_->around[index_of(r)] && clearing_->robot != index_of(r);
+    const bool held_up = clearing_ && clearing_->robot != index_of(r) && neighbourhood_.near(clearing_->robot, index_of(r));
     if (!r.committed && r.next() && !held_up) result.push_back(&r);
   }
   std::stable_sort(result.begin(), result.end(), [](const auto* a, const auto* b) { return a->ready_since < b->ready_since; });
@@ -101,6 +101,7 @@ bool Planner::try_commit_when_all_stand(RobotRecord& r, Instant now, Decisions& 
   if (!all_stand()) return false;
   if (try_commit(r, now, out)) return true;
   escaping_ = make_room_for(r, now, out);
+  if (!escaping_ && may_escape()) warn(r);
   return escaping_;
 }
 
@@ -180,7 +181,7 @@ void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment
   c.command = std::move(command);
   (r.committed ? r.following : r.committed) = std::move(c);
   r.blockers.clear();
-  ++revision_;
+  changed(r);
 }
 
 Planner::Departures Planner::departures_of(const Commitment& c) const {

@@ -13,6 +13,7 @@
 #include "planner/core/escape.hpp"
 #include "planner/core/neighbourhood.hpp"
 #include "planner/core/robot_record.hpp"
+#include "planner/core/untangle.hpp"
 #include "planner/core/wait_graph.hpp"
 
 namespace interlace::core {
@@ -72,6 +73,9 @@ class Planner {
   /// A dispatch or motion that got no answer is given up this long after it must be over: a proxy never starts after its window.
   static constexpr Duration kGrace = std::chrono::milliseconds{500};
 
+  /// Plans a clearing may make before it is given up: one, and others when robots did not do what was planned.
+  static constexpr int kPlans = 3;
+
   // Commands: planner_commands.cpp
   void reject(model::CommandStatus status, model::Reason reason, std::string text, Decisions& out);
   [[nodiscard]] model::Result<std::vector<SampledMotionPtr>, model::MotionError> chain_from(const RobotRecord& r, model::Joints from) const;
@@ -111,22 +115,21 @@ class Planner {
   [[nodiscard]] WaitGraph wait_graph() const;
   bool make_room(Instant now, Decisions& out);
   bool make_room_for(RobotRecord& r, Instant now, Decisions& out);
-  bool go_on_clearing(Instant now, Decisions& out);
-  bool send_home(RobotRecord& r, Instant now, Decisions& out);
-  bool goes_home(RobotRecord& b, bool with_escapes, Instant now, Decisions& out);
-  bool goes_back(RobotRecord& b, Instant now, Decisions& out);
-  bool go_if_clear(RobotRecord& b, model::EscapeWay way, const model::MotionRequest& request, bool with_escapes, Instant now,
-                   Decisions& out);
-  [[nodiscard]] EscapeSearch escape_search(Instant now);
-  void check_clearing();
   void commit_escape(PlannedMotion escape, const model::CommandId& serves, Instant now, Decisions& out);
   [[nodiscard]] static const model::CommandId& served_by(const QueuedCommand& command);
-  [[nodiscard]] std::vector<bool> around(const RobotRecord& r) const;
   [[nodiscard]] EscapeView escape_view(const RobotRecord& r, Instant now) const;
-  void warn(RobotRecord& r, EscapeRefusals refusals);
+  [[nodiscard]] std::vector<EscapeView> escape_views(Instant now) const;
+  void warn(RobotRecord& r);
   [[nodiscard]] bool all_stand() const;
-  [[nodiscard]] bool all_stand_around(const std::vector<bool>& around) const;
+  [[nodiscard]] bool all_stand_around(const RobotRecord& r) const;
+  [[nodiscard]] std::uint64_t scene_around(const RobotRecord& r) const;
   [[nodiscard]] bool may_escape() const { return options_.escapes && strategy_->service().escapes; }
+
+  // Clearing: planner_clearing.cpp
+  bool begin_clearing(RobotRecord& r, Instant now, Decisions& out);
+  bool go_on_clearing(Instant now, Decisions& out);
+  bool send(const UntangleStep& step, Instant now, Decisions& out);
+  void check_clearing();
 
   std::shared_ptr<const model::Cell> cell_;
   PlannerOptions options_;
@@ -137,15 +140,16 @@ class Planner {
   std::unordered_map<model::CommandId, model::CommandStatus> known_;  // newest status of every command still answered by id
   std::deque<model::CommandId> finished_;                             // final ones, oldest first
   std::uint64_t accepted_ = 0, rejected_ = 0, completed_ = 0;
-  std::uint64_t revision_ = 1;  // of all that a search for room depends on
+  /// Says that something changed at `r` that a search for room depends on.
+  void changed(RobotRecord& r) { r.changed = ++revision_; }
+  std::uint64_t revision_ = 0;
   std::uint64_t last_escape_ = 0;
   /// The space around a command that could not be let through at one stroke is being cleared; only it starts there meanwhile.
   struct Clearing {
     model::RobotIndex robot;
     model::CommandId command;
-    std::vector<bool> around;
-    std::vector<bool> went_back;
-    int steps = 0;
+    std::deque<UntangleStep> steps;  // still to be sent
+    int plans = 0;                   // made so far
   };
   std::optional<Clearing> clearing_;
   std::optional<model::RobotIndex> deadlocked_;  // served in turn: for whom all others are held up

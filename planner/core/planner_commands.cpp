@@ -90,7 +90,7 @@ Decisions Planner::on(const model::CommandSubmitted& event, Instant now) {
     return out;
   }
   ++accepted_;
-  ++revision_;
+  changed(r);
   if (!r.next() && !r.committed) r.ready_since = now;
   command.status.state = CommandState::queued;
   publish(command.status, out);
@@ -160,7 +160,7 @@ void Planner::drop_escapes(RobotRecord& r, Decisions& out) {
 
 /// Judges the queues again from where the robot will be.
 void Planner::rejudge_queue(RobotRecord& r, Decisions& out) {
-  ++revision_;
+  changed(r);
   drop_escapes(r, out);
   if (const auto chain = judge_queue(r)) {
     for (std::size_t i = 0; i < r.queue.size(); ++i) r.queue[i].motion = (*chain)[i];

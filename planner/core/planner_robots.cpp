@@ -58,7 +58,7 @@ void Planner::stand_at(RobotRecord& r, const model::Joints& q, Instant now, Deci
 void Planner::put_following_back(RobotRecord& r) {
   QueuedCommand command = std::move(r.following->command);
   r.following.reset();
-  ++revision_;
+  changed(r);
   command.status.state = CommandState::queued;
   command.status.reason = Reason::none;
   command.status.text.clear();
@@ -75,7 +75,7 @@ void Planner::put_back(RobotRecord& r, Reason why, const std::string& text, Deci
   command.status.start.reset();
   command.status.end.reset();
   command.status.conflicts.clear();
-  ++revision_;
+  changed(r);
   if (command.origin == QueuedCommand::Origin::escape) {
     // What it made room for is planned anew, and may need another escape or none.
     command.status.state = CommandState::cancelled;
@@ -137,15 +137,16 @@ Decisions Planner::on(const model::PostureReported& event, Instant now) {
   const bool sent = r.committed && r.committed->phase != Commitment::Phase::held;
   const bool ours = r.committed && r.committed->phase == Commitment::Phase::started;
   r.foreign = event.moving && !ours;
-  bool changed = was_lost != r.lost() || was_ready != r.ready;
-  if (changed) ++revision_;
+  const bool newly = was_lost != r.lost() || was_ready != r.ready;
+  if (newly) changed(r);
+  bool moved = false;
   if (!event.moving && !sent && (event.joints - r.standing->motion().to()).cwiseAbs().maxCoeff() > kSamePlace) {
     if (r.committed) put_back(r, Reason::none, {}, out);
     r.way_back.clear();
     r.trail.clear();
     stand_at(r, event.joints, now, out);
     revoke_dependents(*index, out);
-    changed = true;
+    moved = true;
   }
   if (const auto outcome = unreported_outcome(r, now)) {
     append(on(*outcome, now), out);
@@ -159,7 +160,7 @@ Decisions Planner::on(const model::PostureReported& event, Instant now) {
     }
     revoke_dependents(*index, out);
   }
-  if (changed) schedule(now, out);
+  if (newly || moved) schedule(now, out);
   return out;
 }
 
@@ -297,7 +298,7 @@ void Planner::notice_silence(Instant now, Decisions& out) {
   for (RobotRecord& r : robots_) {
     if (options_.posture_timeout && r.heard && now - r.last_heard > *options_.posture_timeout) {
       r.heard = false;
-      ++revision_;
+      changed(r);
       revoke_dependents(index_of(r), out);
     }
     if (const auto outcome = unreported_outcome(r, now)) append(on(*outcome, now), out);

@@ -58,8 +58,10 @@ struct RobotRecord {
   std::deque<model::MotionRequest> trail;        ///< undoes its last motions, the newest first
   std::vector<model::RobotIndex> blockers;       ///< that leave its next command no start, as last assessed
   std::vector<model::RobotIndex> blockers_told;  ///< of whom people were told when they were asked for help
-  std::uint64_t room_sought = 0;                 ///< revision of the scene for which room for its next command was sought in vain
+  std::uint64_t changed = 1;                     ///< when something last changed here that a search for room depends on
+  std::uint64_t room_sought = 0;                 ///< scene around it for which room for its next command was sought in vain
   std::uint64_t clearing_given_up = 0;           ///< likewise, clearing all space around it
+  std::vector<model::EscapeRefusal> refused;     ///< what the last search for room tried in vain
   std::optional<Commitment> committed;           ///< what it does now or next
   std::optional<Commitment> following;           ///< what it does after that; only after an escape of its own, decided together with it
   std::uint64_t last_serial = 0;

@@ -51,6 +51,15 @@ TEST(Neighbourhood, OfARowOfFourAreNotBothEnds) {
   EXPECT_EQ(overlapped.of(3), (Robots{1, 2}));
 }
 
+TEST(Neighbourhood, AroundARobotAreItsNeighboursAndTheirs) {
+  const Neighbourhood overlapped{row(8, 0.5)};
+  EXPECT_EQ(overlapped.around(0), (Robots{0, 1, 2, 3, 4}));
+  EXPECT_EQ(overlapped.around(3), (Robots{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_TRUE(overlapped.near(0, 4));
+  EXPECT_TRUE(overlapped.near(0, 0));
+  EXPECT_FALSE(overlapped.near(0, 5));
+}
+
 TEST(Neighbourhood, CountsTheMargin) {
   // The arm reaches 260 + 270 + 90 mm and its hand's radius of 48 mm from the shoulder.
   const double touch = 2 * 0.668;

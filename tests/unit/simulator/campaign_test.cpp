@@ -59,6 +59,7 @@ TEST(Campaign, WhatWasOnceLeftUnservedIsServed) {
       {"pattern-zigzag-4", 5071},    // stepping aside needs room itself
       {"pattern-square-4", 262},     // an escape winds a joint up, and a later command runs into its limit
       {"pattern-triangle-3", 183},
+      {"pattern-ring-5", 5288},  // five arms in a tangle that comes apart only in a certain order
   };
   for (const auto& [cell, seed] : programs) {
     CampaignOptions options;
