@@ -16,7 +16,8 @@ namespace {
 
 /// Saying it again would tell nobody anything new.
 bool same_message(const CommandStatus& a, const CommandStatus& b) {
-  return a.state == b.state && a.reason == b.reason && a.start == b.start && a.end == b.end && a.text == b.text;
+  return a.state == b.state && a.reason == b.reason && a.start == b.start && a.end == b.end && a.text == b.text &&
+         a.refusals.size() == b.refusals.size();
 }
 
 /// Nearer than controllers and rounding tell apart [rad], and far below what the maps add for rounding.

@@ -171,6 +171,20 @@ TEST(PlannerEscapes, GoWithTheCommandTheyServeWhenItIsCancelledBeforeTheyBegin) 
   expect_nothing_dangles(desk);
 }
 
+TEST(PlannerEscapes, AreThePlannersOwnAndNotTheClientsToCancel) {
+  Desk desk = with_an_escape();
+  const auto current = desk.planner.state(desk.now).robots[0];
+  EXPECT_EQ(current.current.str(), "escape-1");
+  EXPECT_EQ(current.serves.str(), "in") << "who looks at the robots sees what it is for";
+  desk.cancel("escape-1", "r1");
+  EXPECT_EQ(desk.status_of("escape-1").state, CommandState::scheduled);
+  EXPECT_NE(desk.status_of("escape-1").text.find("cancel in"), std::string::npos) << desk.status_of("escape-1").text;
+  ASSERT_NO_FATAL_FAILURE(carry_out_the_rest(desk, desk.dispatches.size() - 1));
+  EXPECT_EQ(desk.status_of("escape-1").state, CommandState::completed);
+  EXPECT_EQ(desk.status_of("in").state, CommandState::completed);
+  expect_nothing_dangles(desk);
+}
+
 TEST(PlannerEscapes, PeopleAreAskedForHelpOnceWhileNothingChanges) {
   const Turnstile t{0.5};
   t.cell->robots[1].start = t.in_the_way;
