@@ -51,10 +51,13 @@ class StandIn {
     std::optional<int> exit_code;
     while (!exit_code && Clock::now() < deadline) {
       wait_.until(Clock::now() + 20ms);
-      commands_.take([&](dds::CommandMessage&& m) {
-        seen.push_back(m);
-        answer(std::get<model::CommandSubmitted>(m.request).id);
-      });
+      // Each side matches by itself: the peer's command may be here before its reader is known, and an answer would be lost to it.
+      if (statuses_.matched() > 0) {
+        commands_.take([&](dds::CommandMessage&& m) {
+          seen.push_back(m);
+          answer(std::get<model::CommandSubmitted>(m.request).id);
+        });
+      }
       exit_code = peer.wait(0ms);
     }
     return exit_code;
