@@ -13,6 +13,7 @@
 
 namespace interlace::sim {
 
+using model::Duration;
 using model::Instant;
 using proxy::LocalTime;
 
@@ -83,6 +84,7 @@ class World {
         releases_(releases_of(program)),
         total_(releases_.size()),
         postures_(cell_->robots.size()) {
+    planner_.maps().on_build(options.on_map);
     for (const model::Robot& robot : cell_->robots) robots_.push_back(std::make_unique<VirtualRobot>(robot, options.seed + robots_.size()));
   }
 
@@ -90,6 +92,7 @@ class World {
     for (auto& r : robots_) look_at(*r);
     deliver();
     while (const auto next = next_instant()) {
+      if (options_.prepare) prepare_until(*next);
       watch_until(*next);
       now_ = std::max(now_, *next);
       step();
@@ -100,6 +103,7 @@ class World {
     app::RunReport report = collector_.finish(options_.strategy);
     if (options_.observe) report.collisions = observer_.contacts();
     if (const auto least = observer_.least()) report.least_clearance = least->least;
+    if (options_.on_maps) options_.on_maps(planner_.maps().statistics());
     if (options_.stopwatch) {
       auto builds = planner_.maps().take_build_times();
       if (options_.on_map_builds) options_.on_map_builds(builds);
@@ -134,6 +138,14 @@ class World {
       if (const auto t = r->executor.next_event(proxy::ClockEstimate{})) consider(planner_time(*t));
     }
     return next;
+  }
+
+  /// What the daemon does between events: it prepares as long as nothing is due within `kQuiet`.
+  void prepare_until(Instant next) {
+    constexpr Duration kQuiet = std::chrono::milliseconds{50};
+    constexpr Duration kMap = std::chrono::milliseconds{10};  // no map takes longer, on average far less
+    for (Instant t = now_; t + kQuiet < next && planner_.prepare(); t += kMap) {
+    }
   }
 
   void step() {
@@ -182,7 +194,9 @@ class World {
   void decide(const Call& call) {
     const double before = options_.stopwatch ? options_.stopwatch() : 0;
     core::Decisions d = call();
-    if (options_.stopwatch) decision_times_.push_back(options_.stopwatch() - before);
+    const double took = options_.stopwatch ? options_.stopwatch() - before : 0;
+    if (options_.stopwatch) decision_times_.push_back(took);
+    if (options_.on_decision) options_.on_decision(took, d);
     for (const auto& s : d.statuses) {
       collector_.on_status(s);
       if (options_.on_status) options_.on_status(s);

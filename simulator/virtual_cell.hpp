@@ -21,12 +21,16 @@ struct VirtualOptions {
   TraceWriter* trace = nullptr;                                    ///< not owned; null: no trace
   std::function<double()> stopwatch;                               ///< elapsed seconds, for the statistics; may be empty
   std::function<void(double, std::size_t, std::size_t)> progress;  ///< virtual time [s], commands finished, commands in all
-  bool observe = true;  ///< judge clearance and collisions; false leaves them empty in the report
+  bool prepare = false;  ///< the planner builds maps while nothing is due, as much as a daemon would manage; decisions are the same
+  bool observe = true;   ///< judge clearance and collisions; false leaves them empty in the report
 
   // For judges of their own.
   std::function<void(const model::CommandStatus&)> on_status;                  ///< everything the planner says of a command
   std::function<void(double, const std::vector<model::Joints>&)> on_postures;  ///< every check_period: time [s], all robots [rad]
   std::function<void(const std::vector<double>&)> on_map_builds;               ///< at the end: what each map took [s]; needs a stopwatch
+  core::MapStore::Listener on_map;                                             ///< before each map is built
+  std::function<void(double, const core::Decisions&)> on_decision;  ///< each call of the planner: what it took [s], 0 without a stopwatch
+  std::function<void(const core::MapStatistics&)> on_maps;          ///< at the end
 };
 
 /// Runs `program` on `cell` in virtual time: the daemon's planner core, the proxies' executors and the simulated controllers, joined by

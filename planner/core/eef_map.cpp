@@ -30,13 +30,13 @@ SampledMotionPtr EefMap::hand_of(model::RobotIndex robot, const SampledMotionPtr
   return kept_.emplace(whole->id(), Kept{whole, std::move(hand)}).first->second.hand;
 }
 
-Assessment EefMap::assess(const Candidate& candidate, const std::vector<Neighbour>& neighbours, const Timing& timing,
-                          MapStore& maps) const {
+Assessment EefMap::assess(const Candidate& candidate, const std::vector<Neighbour>& neighbours, const Timing& timing, MapStore& maps,
+                          Evidence evidence) const {
   Candidate hand = candidate;
   hand.motion = hand_of(candidate.robot, candidate.motion);
   std::vector<Neighbour> others = neighbours;
   for (Neighbour& n : others) n.motion = hand_of(n.robot, n.motion);
-  return event_->assess(hand, others, timing, maps);
+  return event_->assess(hand, others, timing, maps, evidence);
 }
 
 }  // namespace interlace::core

@@ -20,7 +20,7 @@ class EefMap final : public Strategy {
 
   [[nodiscard]] std::string_view name() const override { return "eef-map"; }
   [[nodiscard]] Assessment assess(const Candidate& candidate, const std::vector<Neighbour>& neighbours, const Timing& timing,
-                                  MapStore& maps) const override;
+                                  MapStore& maps, Evidence evidence) const override;
 
  private:
   struct Kept {

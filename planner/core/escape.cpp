@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "planner/core/escape_goal.hpp"
 
@@ -146,8 +147,12 @@ void EscapeSearch::take_back() {
 bool EscapeSearch::serve(PlannedMotion motion, int depth, const Attempt& then) {
   Timing timing = timing_;
   timing.earliest = std::max(timing.earliest, motion.not_before);
-  motion.assessment = strategy_.assess({motion.robot, motion.motion, motion.tolerance}, neighbours_of(motion.robot), timing, maps_);
+  const auto assess = [&](Evidence evidence) {
+    return strategy_.assess({motion.robot, motion.motion, motion.tolerance}, neighbours_of(motion.robot), timing, maps_, evidence);
+  };
+  motion.assessment = assess(Evidence::no);
   if (motion.assessment.start) {
+    motion.assessment = assess(Evidence::yes);
     commit(std::move(motion));
     if (then()) return true;
     take_back();
@@ -155,9 +160,10 @@ bool EscapeSearch::serve(PlannedMotion motion, int depth, const Attempt& then) {
   }
   const auto& blockers = motion.assessment.blockers;
   if (depth >= deepest_) {
-    if (!motion.assessment.conflicts.empty()) {
-      const auto& c = motion.assessment.conflicts.front();
-      refuse(motion.robot, motion.way, fmt::format("{} is in the way there with its {}", c.blocker.str(), c.blocker_link));
+    if (!notes_refusal(motion.robot, motion.way)) return false;
+    if (const auto why = assess(Evidence::yes).conflicts; !why.empty()) {
+      refuse(motion.robot, motion.way,
+             fmt::format("{} is in the way there with its {}", why.front().blocker.str(), why.front().blocker_link));
     }
     return false;
   }
@@ -188,7 +194,9 @@ Vector3 EscapeSearch::tcp_of(RobotIndex robot) const {
 bool EscapeSearch::clear_by(RobotIndex blocker, const PlannedMotion& motion, int depth, const Attempt& then) {
   protected_.push_back(motion.motion);
   bool cleared = false;
-  for (const Way& way : ways_of(blocker, motion.motion)) {
+  for (Way& way : ways_of(blocker, motion.motion)) {
+    build(blocker, way);
+    if (!way.full.motion && way.why.empty()) continue;  // it is there already
     if (--budget_ < 0) break;
     RequestedMotion out = out_of_the_way(blocker, way);
     if (!out.motion) continue;
@@ -211,28 +219,42 @@ bool EscapeSearch::clear_by(RobotIndex blocker, const PlannedMotion& motion, int
   return cleared;
 }
 
-const std::vector<EscapeSearch::Way>& EscapeSearch::ways_of(RobotIndex robot, const SampledMotionPtr& served) {
+/// The ways out of `robot`, in the order in which they are tried. Most searches need few of them, so they are built one by one.
+std::vector<EscapeSearch::Way>& EscapeSearch::ways_of(RobotIndex robot, const SampledMotionPtr& served) {
   auto [entry, fresh] = ways_.try_emplace({robot, served->id()});
   if (!fresh) return entry->second;
   std::vector<Way>& ways = entry->second;
-  const EscapeView& view = robots_[robot];
-  const model::Joints& from = view.motion()->motion().to();
-  const Cuboid cuboid = swept_cuboid(served->motion());
-  for (const EscapeDirection& d : escape_directions(cuboid, tcp_of(robot))) {
-    ways.push_back({d.way, to_reachable_goal(cell_, robot, from, d.unit), "it cannot go any farther that way"});
+  for (const EscapeDirection& d : escape_directions(swept_cuboid(served->motion()), tcp_of(robot))) {
+    Way& way = ways.emplace_back();
+    way.way = d.way;
+    way.unit = d.unit;
   }
   if (rules_.six_directions_only) return ways;
-  const auto add = [&](EscapeWay way, const model::MotionRequest& request) {
-    auto motion = admit(cell_, robot, from, request);
-    if (!motion) {
-      ways.push_back({way, {}, motion.error().text});
-    } else if ((*motion)->motion().duration() > 0) {
-      ways.push_back({way, {request, std::move(*motion)}, {}});
-    }
+  const EscapeView& view = robots_[robot];
+  const auto add = [&](EscapeWay name, const model::MotionRequest& request) {
+    Way& way = ways.emplace_back();
+    way.way = name;
+    way.request = request;
   };
   for (const model::MotionRequest& back : view.trail) add(EscapeWay::retreat, back);
   for (const model::MotionRequest& home : view.home) add(EscapeWay::home, home);
   return ways;
+}
+
+void EscapeSearch::build(RobotIndex robot, Way& way) {
+  if (std::exchange(way.built, true)) return;
+  const model::Joints& from = robots_[robot].motion()->motion().to();
+  if (way.unit) {
+    way.full = to_reachable_goal(cell_, robot, from, *way.unit);
+    if (!way.full.motion) way.why = "it cannot go any farther that way";
+    return;
+  }
+  auto motion = admit(cell_, robot, from, way.request);
+  if (!motion) {
+    way.why = motion.error().text;
+  } else if ((*motion)->motion().duration() > 0) {
+    way.full = {way.request, std::move(*motion)};
+  }
 }
 
 /// The shortest part of a way whose end is clear of everything that room is made for; empty with a refusal when there is none.
@@ -284,7 +306,7 @@ const RequestedMotion& EscapeSearch::cut(RobotIndex robot, const Way& way, doubl
 std::optional<double> EscapeSearch::first_clear(const SampledMotionPtr& full) {
   std::vector<std::pair<double, double>> blocked;
   for (const SampledMotionPtr& p : protected_) {
-    for (const BlockedCell& c : maps_.get(p, full).blocked) blocked.emplace_back(c.t0, c.t1);
+    for (const BlockedCell& c : maps_.get(p, full).map.blocked) blocked.emplace_back(c.t0, c.t1);
   }
   const double end = full->motion().duration();
   if (!rules_.brake_after_area) return first_gap(std::move(blocked), end);
@@ -299,7 +321,7 @@ double EscapeSearch::safe_length(RobotIndex robot, const SampledMotionPtr& full)
   for (const RobotIndex other : neighbourhood_.of(robot)) {
     const Neighbour& n = robots_[other].seen.back();
     if (n.committed || n.lost) continue;
-    for (const BlockedCell& c : maps_.get(full, n.motion).blocked) first = std::min(first, c.tau0);
+    for (const BlockedCell& c : maps_.get(full, n.motion).map.blocked) first = std::min(first, c.tau0);
   }
   return first == kNever ? full->motion().length(full->motion().duration()) : full->motion().length(first - cell_.planning.resolution);
 }
@@ -313,10 +335,14 @@ std::vector<Neighbour> EscapeSearch::neighbours_of(RobotIndex robot) const {
 }
 
 /// One reason for each way: the first.
-void EscapeSearch::refuse(RobotIndex robot, EscapeWay way, std::string text) {
+bool EscapeSearch::notes_refusal(RobotIndex robot, EscapeWay way) const {
   const model::RobotName& name = cell_.robots[robot].name;
-  const auto known = std::any_of(refusals_.begin(), refusals_.end(), [&](const auto& r) { return r.robot == name && r.way == way; });
-  if (!known && refusals_.size() < kRefusalsKept) refusals_.push_back({name, way, std::move(text)});
+  return refusals_.size() < kRefusalsKept &&
+         std::none_of(refusals_.begin(), refusals_.end(), [&](const auto& r) { return r.robot == name && r.way == way; });
+}
+
+void EscapeSearch::refuse(RobotIndex robot, EscapeWay way, std::string text) {
+  if (notes_refusal(robot, way)) refusals_.push_back({cell_.robots[robot].name, way, std::move(text)});
 }
 
 }  // namespace interlace::core

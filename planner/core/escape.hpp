@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "planner/core/escape_goal.hpp"
@@ -58,8 +59,11 @@ class EscapeSearch {
 
  private:
   struct Way {
-    model::EscapeWay way;
-    RequestedMotion full;  // to the reachable goal
+    model::EscapeWay way = model::EscapeWay::plus_x;
+    std::optional<Vector3> unit;   // of a direction: as far as its robot can go
+    model::MotionRequest request;  // of any other way
+    bool built = false;
+    RequestedMotion full;  // once built: to the reachable goal
     std::string why;       // there is none
   };
   using Attempt = std::function<bool()>;
@@ -70,13 +74,15 @@ class EscapeSearch {
   void take_back();
   bool serve(PlannedMotion motion, int depth, const Attempt& then);
   bool clear_by(model::RobotIndex blocker, const PlannedMotion& motion, int depth, const Attempt& then);
-  const std::vector<Way>& ways_of(model::RobotIndex robot, const SampledMotionPtr& served);
+  std::vector<Way>& ways_of(model::RobotIndex robot, const SampledMotionPtr& served);
+  void build(model::RobotIndex robot, Way& way);
   RequestedMotion out_of_the_way(model::RobotIndex robot, const Way& way);
   const RequestedMotion& cut(model::RobotIndex robot, const Way& way, double length);
   [[nodiscard]] std::optional<double> first_clear(const SampledMotionPtr& full);
   [[nodiscard]] double safe_length(model::RobotIndex robot, const SampledMotionPtr& full);
   [[nodiscard]] Vector3 tcp_of(model::RobotIndex robot) const;
   [[nodiscard]] std::vector<Neighbour> neighbours_of(model::RobotIndex robot) const;
+  [[nodiscard]] bool notes_refusal(model::RobotIndex robot, model::EscapeWay way) const;
   void refuse(model::RobotIndex robot, model::EscapeWay way, std::string text);
 
   const model::Cell& cell_;

@@ -1,5 +1,6 @@
 #include "planner/core/neighbourhood.hpp"
 
+#include <numeric>
 #include <set>
 
 #include "planner/core/reach.hpp"
@@ -25,6 +26,26 @@ Neighbourhood::Neighbourhood(const model::Cell& cell) : meet_(cell.robots.size()
     }
     around_.emplace_back(near.begin(), near.end());
   }
+}
+
+std::vector<RobotIndex> Neighbourhood::within(RobotIndex robot, int steps) const {
+  std::set<RobotIndex> reached{robot};
+  std::vector<RobotIndex> border{robot};
+  for (int i = 0; i < steps; ++i) {
+    std::vector<RobotIndex> next;
+    for (const RobotIndex a : border) {
+      for (const RobotIndex b : neighbours_[a]) {
+        if (reached.insert(b).second) next.push_back(b);
+      }
+    }
+    border = std::move(next);
+  }
+  return {reached.begin(), reached.end()};
+}
+
+std::size_t Neighbourhood::pairs() const {
+  return std::accumulate(neighbours_.begin(), neighbours_.end(), std::size_t{0},
+                         [](std::size_t sum, const auto& n) { return sum + n.size(); });
 }
 
 }  // namespace interlace::core

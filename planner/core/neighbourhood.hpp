@@ -27,6 +27,12 @@ class Neighbourhood {
   [[nodiscard]] const std::vector<RobotIndex>& around(RobotIndex robot) const { return around_[robot]; }
   [[nodiscard]] bool near(RobotIndex a, RobotIndex b) const { return std::binary_search(around_[a].begin(), around_[a].end(), b); }
 
+  /// The robots that are at most `steps` meetings away from `robot`, itself included, in ascending order.
+  [[nodiscard]] std::vector<RobotIndex> within(RobotIndex robot, int steps) const;
+
+  /// Pairs of robots that can meet, each counted both ways round.
+  [[nodiscard]] std::size_t pairs() const;
+
  private:
   std::vector<bool> meet_;
   std::vector<std::vector<RobotIndex>> neighbours_;

@@ -15,12 +15,23 @@ using model::CommandStatus;
 using model::Reason;
 using model::RobotMode;
 
+namespace {
+
+/// Room for the maps of each pair's motions now and next, as they are and after they have ended, and for those of some searches.
+MapLimits map_limits(const Neighbourhood& neighbourhood) {
+  MapLimits limits;
+  limits.maps += 6 * neighbourhood.pairs();
+  return limits;
+}
+
+}  // namespace
+
 Planner::Planner(std::shared_ptr<const model::Cell> cell, PlannerOptions options)
     : cell_(std::move(cell)),
       options_(std::move(options)),
       strategy_(make_strategy(options_.strategy, *cell_)),
       neighbourhood_(*cell_),
-      maps_(cell_->planning.margin, options_.stopwatch) {
+      maps_(cell_->planning.margin, options_.stopwatch, map_limits(neighbourhood_)) {
   if (!strategy_) throw std::invalid_argument(fmt::format("unknown strategy \"{}\"", options_.strategy));
   robots_.resize(cell_->robots.size());
   for (model::RobotIndex i = 0; i < robots_.size(); ++i) {
@@ -38,6 +49,7 @@ Decisions Planner::advance(Instant now) {
 }
 
 void Planner::schedule(Instant now, Decisions& out) {
+  prepared_ = false;
   send_due(now, out);
   if (strategy_->service().in_turn) {
     serve_in_turn(now, out);
@@ -118,8 +130,9 @@ std::vector<Neighbour> Planner::neighbours_of(const RobotRecord& r, Instant now)
 
 bool Planner::try_commit(RobotRecord& r, Instant now, Decisions& out) {
   QueuedCommand& head = *r.next();
-  r.blockers.clear();
   if (r.lost() || !r.ready) {
+    r.blockers.clear();
+    r.in_vain = {};
     head.status.state = CommandState::waiting;
     head.status.reason = Reason::not_ready;
     head.status.text = r.foreign ? fmt::format("{} moves although nobody told it to", r.robot->name.str())
@@ -129,8 +142,10 @@ bool Planner::try_commit(RobotRecord& r, Instant now, Decisions& out) {
     head.status.refusals.clear();
     return false;
   }
+  AssessedScene scene{head.motion, neighbours_of(r, now)};
+  if (scene == r.in_vain) return false;
   const Candidate candidate = candidate_of(r, head.motion);
-  Assessment a = strategy_->assess(candidate, neighbours_of(r, now), timing_at(now), maps_);
+  Assessment a = strategy_->assess(candidate, scene.neighbours, timing_at(now), maps_);
   if (a.start) {
     commit_next(r, candidate, std::move(a), r.ready_since + options_.lead, out);
     return true;
@@ -139,6 +154,7 @@ bool Planner::try_commit(RobotRecord& r, Instant now, Decisions& out) {
                                return robots_[b].committed.has_value();
                              });
   r.blockers = a.blockers;
+  r.in_vain = std::move(scene);
   if (head.status.reason == Reason::deadlock && same_blockers) return false;  // what a person was told still holds
   head.status.state = CommandState::waiting;
   head.status.reason = a.reason;
@@ -181,6 +197,7 @@ void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment
   c.command = std::move(command);
   (r.committed ? r.following : r.committed) = std::move(c);
   r.blockers.clear();
+  r.in_vain = {};
   changed(r);
 }
 

@@ -67,6 +67,10 @@ class Planner {
   /// The whole state, for the heartbeat. `cell`, `fingerprint` and `incarnation` are the caller's to fill.
   [[nodiscard]] model::PlannerState state(Instant now) const;
 
+  /// Between decisions: builds the next map that one of the coming ones will most likely ask for. False when there is none left to build.
+  /// Changes how long decisions take and nothing else. One call takes as long as one map.
+  bool prepare();
+
   [[nodiscard]] MapStore& maps() { return maps_; }
 
  private:
@@ -118,12 +122,15 @@ class Planner {
   void commit_escape(PlannedMotion escape, const model::CommandId& serves, Instant now, Decisions& out);
   [[nodiscard]] static const model::CommandId& served_by(const QueuedCommand& command);
   [[nodiscard]] EscapeView escape_view(const RobotRecord& r, Instant now) const;
-  [[nodiscard]] std::vector<EscapeView> escape_views(Instant now) const;
+  [[nodiscard]] std::vector<EscapeView> escape_views(const RobotRecord& r, Instant now) const;
   void warn(RobotRecord& r);
   [[nodiscard]] bool all_stand() const;
   [[nodiscard]] bool all_stand_around(const RobotRecord& r) const;
   [[nodiscard]] std::uint64_t scene_around(const RobotRecord& r) const;
   [[nodiscard]] bool may_escape() const { return options_.escapes && strategy_->service().escapes; }
+
+  // Preparation: planner_prepare.cpp
+  [[nodiscard]] bool prepare_for(const RobotRecord& r);
 
   // Clearing: planner_clearing.cpp
   bool begin_clearing(RobotRecord& r, Instant now, Decisions& out);
@@ -136,6 +143,7 @@ class Planner {
   std::shared_ptr<const Strategy> strategy_;  // stateless: copies share it
   Neighbourhood neighbourhood_;
   MapStore maps_;
+  bool prepared_ = false;  // nothing was left to prepare since the last event
   std::vector<RobotRecord> robots_;
   std::unordered_map<model::CommandId, model::CommandStatus> known_;  // newest status of every command still answered by id
   std::deque<model::CommandId> finished_;                             // final ones, oldest first

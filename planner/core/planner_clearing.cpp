@@ -28,7 +28,7 @@ bool Planner::go_on_clearing(Instant now, Decisions& out) {
   if (make_room_for(r, now, out)) return true;
   if (clearing_->plans++ < kPlans) {
     const QueuedCommand& waiting = *r.next();
-    if (auto steps = untangle(*cell_, neighbourhood_, escape_views(now), neighbourhood_.around(clearing_->robot),
+    if (auto steps = untangle(*cell_, neighbourhood_, escape_views(r, now), neighbourhood_.around(clearing_->robot),
                               candidate_of(r, waiting.motion), waiting.request, *strategy_, timing_at(now), maps_)) {
       clearing_->steps.assign(steps->begin(), steps->end());
       return go_on_clearing(now, out);

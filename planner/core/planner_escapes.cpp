@@ -76,9 +76,11 @@ const model::CommandId& Planner::served_by(const QueuedCommand& command) {
   return command.origin == QueuedCommand::Origin::client ? command.status.id : command.status.serves;
 }
 
-std::vector<EscapeView> Planner::escape_views(Instant now) const {
-  std::vector<EscapeView> views;
-  for (const RobotRecord& r : robots_) views.push_back(escape_view(r, now));
+/// All that a search for room for `r` may look at: whoever it or an escape that it needs may meet.
+std::vector<EscapeView> Planner::escape_views(const RobotRecord& r, Instant now) const {
+  std::vector<EscapeView> views(robots_.size());
+  const int farthest = EscapeRules{}.cascade + 1;
+  for (const model::RobotIndex i : neighbourhood_.within(index_of(r), farthest)) views[i] = escape_view(robots_[i], now);
   return views;
 }
 
@@ -110,7 +112,8 @@ bool Planner::make_room_for(RobotRecord& r, Instant now, Decisions& out) {
   r.room_sought = scene_around(r);
   const QueuedCommand& waiting = *r.next();
   const Candidate served = candidate_of(r, waiting.motion);
-  auto plan = EscapeSearch{*cell_, neighbourhood_, escape_views(now), *strategy_, timing_at(now), maps_}.make_room(served, waiting.request);
+  auto plan =
+      EscapeSearch{*cell_, neighbourhood_, escape_views(r, now), *strategy_, timing_at(now), maps_}.make_room(served, waiting.request);
   if (!plan) {
     r.refused = std::move(plan.error());
     return false;

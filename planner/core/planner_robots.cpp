@@ -101,7 +101,7 @@ void Planner::revoke_dependents(model::RobotIndex robot, Decisions& out) {
     if (r.committed->phase == Commitment::Phase::started) continue;
     const SampledMotionPtr theirs = robots_[robot].committed ? robots_[robot].committed->command.motion : robots_[robot].standing;
     const bool meets = robots_[robot].lost() ? enters_reach(*r.committed->command.motion, *robots_[robot].robot)
-                                             : !maps_.get(r.committed->command.motion, theirs).blocked.empty();
+                                             : !maps_.get(r.committed->command.motion, theirs).map.blocked.empty();
     if (!meets) continue;
     if (r.committed->phase == Commitment::Phase::held) {
       put_back(r, Reason::none, {}, out);
@@ -249,6 +249,7 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
         r.trail.clear();
       }
       r.known_at = std::max(r.known_at, std::min(event.at, now));
+      if (arrived && motion.duration() > 0) r.standing = c.command.motion->standing_at_end();
       if (r.following && !arrived) put_following_back(r);
       r.committed = std::move(r.following);
       r.following.reset();

@@ -41,6 +41,14 @@ struct Commitment {
   Instant sent{};           ///< when the dispatch was last sent
 };
 
+/// What a command was last assessed in, in vain: as long as it is the same, so is the answer.
+struct AssessedScene {
+  SampledMotionPtr motion;  ///< of the command; null: not assessed
+  std::vector<Neighbour> neighbours;
+
+  [[nodiscard]] bool operator==(const AssessedScene& other) const { return motion == other.motion && neighbours == other.neighbours; }
+};
+
 /// Everything the planner knows of one robot.
 struct RobotRecord {
   const model::Robot* robot = nullptr;
@@ -57,6 +65,7 @@ struct RobotRecord {
   std::vector<model::MotionRequest> way_back;    ///< undoes the escapes since the robot's last own command, the newest last
   std::deque<model::MotionRequest> trail;        ///< undoes its last motions, the newest first
   std::vector<model::RobotIndex> blockers;       ///< that leave its next command no start, as last assessed
+  AssessedScene in_vain;                         ///< of that assessment
   std::vector<model::RobotIndex> blockers_told;  ///< of whom people were told when they were asked for help
   std::uint64_t changed = 1;                     ///< when something last changed here that a search for room depends on
   std::uint64_t room_sought = 0;                 ///< scene around it for which room for its next command was sought in vain

@@ -82,9 +82,12 @@ SampledMotion& SampledMotion::at_start() {
 }
 
 SampledMotion& SampledMotion::at_end() {
-  if (motion_.duration() <= 0) return *this;
-  if (!at_end_) at_end_ = std::make_unique<SampledMotion>(model::Motion::rest(robot(), motion_.to()), 1.0);
-  return *at_end_;
+  return motion_.duration() > 0 ? *standing_at_end() : *this;
+}
+
+const std::shared_ptr<SampledMotion>& SampledMotion::standing_at_end() {
+  if (!at_end_) at_end_ = std::make_shared<SampledMotion>(model::Motion::rest(robot(), motion_.to()), 1.0);
+  return at_end_;
 }
 
 }  // namespace interlace::core

@@ -61,6 +61,9 @@ class SampledMotion {
   [[nodiscard]] SampledMotion& at_start();
   [[nodiscard]] SampledMotion& at_end();
 
+  /// Standing where the motion, which takes time, ends: for whoever stands there afterwards, who then finds the maps that know it.
+  [[nodiscard]] const std::shared_ptr<SampledMotion>& standing_at_end();
+
  private:
   /// Room for pieces that come one by one and stay where they are: never filled beyond what was reserved.
   struct Block {
@@ -79,7 +82,8 @@ class SampledMotion {
   std::vector<Vector3> ends_;         // of the capsules' axes in the piece being made, in the base frame [m]
   std::vector<const Piece*> pieces_;  // binary tree in heap order; null: not asked for yet
   std::vector<Block> blocks_;
-  std::unique_ptr<SampledMotion> at_start_, at_end_;
+  std::unique_ptr<SampledMotion> at_start_;
+  std::shared_ptr<SampledMotion> at_end_;
 };
 
 using SampledMotionPtr = std::shared_ptr<SampledMotion>;

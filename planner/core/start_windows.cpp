@@ -14,17 +14,37 @@ Instant shifted(Instant base, double seconds, int outward) {
   return base + model::from_seconds(seconds) + Duration{outward};
 }
 
+ForbiddenShift forbidden_shift(const BlockedCell& c, double commanded_stretch, double moving_stretch) {
+  return {c.t0 * (1 - moving_stretch) - c.tau1 * (1 + commanded_stretch), c.t1 * (1 + moving_stretch) - c.tau0 * (1 - commanded_stretch)};
+}
+
 }  // namespace
+
+std::vector<ForbiddenShift> forbidden_shifts(const TimingMap& map, double commanded_stretch, double moving_stretch) {
+  std::vector<ForbiddenShift> all;
+  all.reserve(map.blocked.size());
+  for (const BlockedCell& c : map.blocked) all.push_back(forbidden_shift(c, commanded_stretch, moving_stretch));
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<ForbiddenShift> united;
+  for (const ForbiddenShift& next : all) {
+    if (!united.empty() && next.first <= united.back().last) {
+      united.back().last = std::max(united.back().last, next.last);
+    } else {
+      united.push_back(next);
+    }
+  }
+  return united;
+}
+
+StartInterval forbidden_start(const ForbiddenShift& shift, const StartUncertainty& u) {
+  return {shifted(u.moving_from, shift.first - model::to_seconds(u.commanded_tolerance), -1), shifted(u.moving_until, shift.last, 1)};
+}
 
 std::vector<ForbiddenStart> forbidden_starts(const TimingMap& map, const StartUncertainty& u) {
   std::vector<ForbiddenStart> forbidden;
   forbidden.reserve(map.blocked.size());
-  const double tolerance = model::to_seconds(u.commanded_tolerance);
   for (std::size_t i = 0; i < map.blocked.size(); ++i) {
-    const BlockedCell& c = map.blocked[i];
-    const double first = c.t0 * (1 - u.moving_stretch) - c.tau1 * (1 + u.commanded_stretch) - tolerance;
-    const double last = c.t1 * (1 + u.moving_stretch) - c.tau0 * (1 - u.commanded_stretch);
-    forbidden.push_back({{shifted(u.moving_from, first, -1), shifted(u.moving_until, last, 1)}, i});
+    forbidden.push_back({forbidden_start(forbidden_shift(map.blocked[i], u.commanded_stretch, u.moving_stretch), u), i});
   }
   return forbidden;
 }

@@ -22,6 +22,15 @@ struct ForbiddenStart {
   std::size_t cell = 0;  ///< index in the timing map: the evidence
 };
 
+/// Shifts (start of the commanded robot after the moving one's, [s]) from `first` to `last`; ±∞ where there is no end.
+struct ForbiddenShift {
+  double first = 0, last = 0;
+};
+
+/// The shifts that a map forbids, whatever the starts, in order and disjoint: a cell [t0,t1]×[τ0,τ1] forbids [t0 − τ1, t1 − τ0], widened
+/// by the relative errors of both durations.
+[[nodiscard]] std::vector<ForbiddenShift> forbidden_shifts(const TimingMap& map, double commanded_stretch, double moving_stretch);
+
 /// When the moving robot of a map starts, and how far both robots may be from their predictions.
 struct StartUncertainty {
   Instant moving_from{}, moving_until{};  ///< its start lies in between
@@ -33,6 +42,9 @@ struct StartUncertainty {
 /// Starts of the commanded robot that each blocked cell forbids: a cell [t0,t1]×[τ0,τ1] forbids [t0 − τ1, t1 − τ0] after the moving robot's
 /// start, widened by the uncertainty. Source: dissertation Algorithm 1 restated, DESIGN section 5.
 [[nodiscard]] std::vector<ForbiddenStart> forbidden_starts(const TimingMap& map, const StartUncertainty& uncertainty);
+
+/// The same from the shifts of a map, in which the errors of the durations are already.
+[[nodiscard]] StartInterval forbidden_start(const ForbiddenShift& shift, const StartUncertainty& uncertainty);
 
 /// Union of intervals, in order and disjoint; intervals that touch become one, others stay apart.
 /// Replaces the dissertation's appendix B, which merges ranges that do not touch.

@@ -9,30 +9,14 @@
 
 namespace interlace::core {
 
-const TimingMap& MapStore::get(const SampledMotionPtr& commanded, const SampledMotionPtr& moving) {
-  const auto key = std::make_pair(commanded->id(), moving->id());
-  if (const auto found = maps_.find(key); found != maps_.end()) return found->second.map;
-  constexpr std::size_t kTidyAt = 256;
-  if (maps_.size() >= kTidyAt) forget_dead();
-  const double before = stopwatch_ ? stopwatch_() : 0;
-  TimingMap map = build_timing_map(*commanded, *moving, margin_);
-  if (stopwatch_) build_times_.push_back(stopwatch_() - before);
-  return maps_.emplace(key, Kept{commanded, moving, std::move(map)}).first->second.map;
-}
-
-void MapStore::forget_dead() {
-  for (auto it = maps_.begin(); it != maps_.end();) {
-    it = it->second.commanded.expired() || it->second.moving.expired() ? maps_.erase(it) : std::next(it);
-  }
-}
-
 namespace {
 
 /// Everything starts as soon as its robot is free: the dissertation's "without method".
 class Direct final : public Strategy {
  public:
   [[nodiscard]] std::string_view name() const override { return "direct"; }
-  [[nodiscard]] Assessment assess(const Candidate&, const std::vector<Neighbour>&, const Timing& timing, MapStore&) const override {
+  [[nodiscard]] Assessment assess(const Candidate&, const std::vector<Neighbour>&, const Timing& timing, MapStore&,
+                                  Evidence) const override {
     Assessment a;
     a.windows = {{timing.earliest, model::kForever}};
     a.start = timing.earliest;
@@ -47,53 +31,57 @@ class Event : public Strategy {
   [[nodiscard]] Service service() const override {
     Service s;
     s.escapes = true;
+    s.maps = true;
     return s;
   }
 
   [[nodiscard]] Assessment assess(const Candidate& candidate, const std::vector<Neighbour>& neighbours, const Timing& timing,
-                                  MapStore& maps) const override {
+                                  MapStore& maps, Evidence evidence) const override {
     Assessment a;
     std::vector<StartInterval> all;
-    std::vector<std::vector<ForbiddenStart>> by_neighbour;
+    bool lost = false;
     for (const Neighbour& n : neighbours) {
-      by_neighbour.push_back(forbidden_by(candidate, n, timing, maps, a));
+      lost = lost || n.lost;
       bool for_good = false;
-      for (const ForbiddenStart& f : by_neighbour.back()) {
-        all.push_back(f.interval);
-        for_good = for_good || f.interval.until == model::kForever;
+      for (const StartInterval& f : forbidden(candidate, n, timing, maps, a)) {
+        all.push_back(f);
+        for_good = for_good || f.until == model::kForever;
       }
       if (for_good) a.blockers.push_back(n.robot);
     }
     a.windows = complement(united(std::move(all)), timing.earliest);
     if (!a.windows.empty()) a.start = a.windows.front().from;
-    const Instant horizon = a.start.value_or(model::kForever);
-    for (std::size_t i = 0; i < neighbours.size(); ++i) {
-      if (neighbours[i].lost) {
-        if (!by_neighbour[i].empty()) a.conflicts.push_back(lost_conflict(candidate, neighbours[i], timing.earliest));
-        continue;
-      }
-      if (auto conflict = explain_conflict(candidate, neighbours[i], maps.get(candidate.motion, neighbours[i].motion), by_neighbour[i],
-                                           {timing.earliest, horizon})) {
-        a.conflicts.push_back(std::move(*conflict));
-      }
-    }
-    const bool lost = std::any_of(neighbours.begin(), neighbours.end(), [](const Neighbour& n) { return n.lost; });
     if (!a.start) {
-      a.reason = lost && !a.conflicts.empty() ? model::Reason::robot_unknown : model::Reason::blocked;
+      a.reason = lost ? model::Reason::robot_unknown : model::Reason::blocked;
     } else if (*a.start > timing.earliest) {
       a.reason = model::Reason::delayed;
     }
+    if (evidence == Evidence::yes) explain(candidate, neighbours, timing, maps, a);
     return a;
   }
 
  private:
-  static std::vector<ForbiddenStart> forbidden_by(const Candidate& candidate, const Neighbour& n, const Timing& timing, MapStore& maps,
-                                                  Assessment& a) {
-    if (n.lost) {
-      if (!enters_reach(*candidate.motion, n.motion->robot())) return {};
-      return {{{model::kEarliest, model::kForever}, 0}};
+  static std::vector<StartInterval> forbidden(const Candidate& candidate, const Neighbour& n, const Timing& timing, MapStore& maps,
+                                              Assessment& a) {
+    if (!n.lost) return forbidden_by(candidate, n, timing, maps.get(candidate.motion, n.motion), a.departures);
+    if (!enters_reach(*candidate.motion, n.motion->robot())) return {};
+    return {{model::kEarliest, model::kForever}};
+  }
+
+  static void explain(const Candidate& candidate, const std::vector<Neighbour>& neighbours, const Timing& timing, MapStore& maps,
+                      Assessment& a) {
+    const StartInterval span{timing.earliest, a.start.value_or(model::kForever)};
+    for (const Neighbour& n : neighbours) {
+      if (n.lost) {
+        if (enters_reach(*candidate.motion, n.motion->robot())) a.conflicts.push_back(lost_conflict(candidate, n, timing.earliest));
+        continue;
+      }
+      const TimingMap& map = maps.get(candidate.motion, n.motion).map;
+      if (map.blocked.empty()) continue;
+      std::vector<model::RobotIndex> known;  // as departures already
+      const auto by_cell = forbidden_by_map(candidate, n, timing, map, known);
+      if (auto conflict = explain_conflict(candidate, n, map, by_cell, span)) a.conflicts.push_back(std::move(*conflict));
     }
-    return forbidden_by_map(candidate, n, timing, maps.get(candidate.motion, n.motion), a.departures);
   }
 };
 
@@ -105,6 +93,7 @@ class Acm final : public Event {
     Service s;
     s.in_turn = true;
     s.escapes = true;
+    s.maps = true;
     s.rules.six_directions_only = true;
     s.rules.brake_after_area = true;
     s.rules.cascade = 1;
@@ -114,25 +103,48 @@ class Acm final : public Event {
   }
 };
 
-}  // namespace
-
-std::vector<ForbiddenStart> forbidden_by_map(const Candidate& candidate, const Neighbour& n, const Timing& timing, const TimingMap& map,
-                                             std::vector<model::RobotIndex>& departures) {
+StartUncertainty uncertainty_of(const Candidate& candidate, const Neighbour& n) {
   StartUncertainty u;
   u.moving_from = n.start_from;
   u.moving_until = n.start_until;
   u.moving_stretch = n.motion->robot().controller.speed_error;
   u.commanded_stretch = candidate.motion->robot().controller.speed_error;
   u.commanded_tolerance = candidate.tolerance;
-  auto forbidden = forbidden_starts(map, u);
-  if (n.committed && !n.started) {
-    // The neighbour may yet fail to start. Where that would leave it in the way, its departure must be known before we leave.
-    const auto in_the_way = std::find_if(map.blocked.begin(), map.blocked.end(), [](const BlockedCell& c) { return c.t0 == -kNever; });
-    if (in_the_way != map.blocked.end()) {
-      departures.push_back(n.robot);
-      const Instant until = n.overdue ? model::kForever : n.start_until + timing.confirm;
-      forbidden.push_back({{model::kEarliest, until}, static_cast<std::size_t>(in_the_way - map.blocked.begin())});
-    }
+  return u;
+}
+
+/// The neighbour may yet fail to start. Where that would leave it in the way, its departure must be known before we leave.
+bool may_stay(const Neighbour& n) {
+  return n.committed && !n.started;
+}
+
+StartInterval until_it_has_left(const Neighbour& n, const Timing& timing) {
+  return {model::kEarliest, n.overdue ? model::kForever : n.start_until + timing.confirm};
+}
+
+}  // namespace
+
+std::vector<StartInterval> forbidden_by(const Candidate& candidate, const Neighbour& n, const Timing& timing, const KeptMap& kept,
+                                        std::vector<model::RobotIndex>& departures) {
+  const StartUncertainty u = uncertainty_of(candidate, n);
+  std::vector<StartInterval> forbidden;
+  forbidden.reserve(kept.forbidden.size() + 1);
+  for (const ForbiddenShift& shift : kept.forbidden) forbidden.push_back(forbidden_start(shift, u));
+  if (may_stay(n) && kept.blocked_before_start) {
+    departures.push_back(n.robot);
+    forbidden.push_back(until_it_has_left(n, timing));
+  }
+  return forbidden;
+}
+
+std::vector<ForbiddenStart> forbidden_by_map(const Candidate& candidate, const Neighbour& n, const Timing& timing, const TimingMap& map,
+                                             std::vector<model::RobotIndex>& departures) {
+  auto forbidden = forbidden_starts(map, uncertainty_of(candidate, n));
+  if (!may_stay(n)) return forbidden;
+  const auto in_the_way = std::find_if(map.blocked.begin(), map.blocked.end(), [](const BlockedCell& c) { return c.t0 == -kNever; });
+  if (in_the_way != map.blocked.end()) {
+    departures.push_back(n.robot);
+    forbidden.push_back({until_it_has_left(n, timing), static_cast<std::size_t>(in_the_way - map.blocked.begin())});
   }
   return forbidden;
 }

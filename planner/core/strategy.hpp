@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -9,38 +7,11 @@
 
 #include "common/model/cell.hpp"
 #include "common/model/messages.hpp"
-#include "planner/core/start_windows.hpp"
+#include "planner/core/map_store.hpp"
 
 namespace interlace::core {
 
-/// Timing maps of pairs of motions, built when first asked for and kept while both motions live.
-class MapStore {
- public:
-  /// `stopwatch` tells elapsed seconds for the statistics, and nothing depends on it; may be empty.
-  MapStore(double margin, std::function<double()> stopwatch) : margin_(margin), stopwatch_(std::move(stopwatch)) {}
-
-  /// The map of `commanded` against `moving`; valid until the next call.
-  const TimingMap& get(const SampledMotionPtr& commanded, const SampledMotionPtr& moving);
-
-  [[nodiscard]] std::size_t size() const { return maps_.size(); }
-
-  /// Seconds each map took to build since the last call; empty without a stopwatch.
-  [[nodiscard]] std::vector<double> take_build_times() { return std::exchange(build_times_, {}); }
-
- private:
-  struct Kept {
-    std::weak_ptr<SampledMotion> commanded, moving;
-    TimingMap map;
-  };
-  void forget_dead();
-
-  double margin_;
-  std::function<double()> stopwatch_;
-  std::map<std::pair<std::uint64_t, std::uint64_t>, Kept> maps_;
-  std::vector<double> build_times_;
-};
-
-/// Another robot as a candidate has to see it.
+/// Another robot as a candidate has to see it. Together with the candidate's own motion these decide whether it has a start.
 struct Neighbour {
   model::RobotIndex robot = 0;
   SampledMotionPtr motion;              ///< its committed motion, or its standing posture
@@ -49,6 +20,11 @@ struct Neighbour {
   bool started = false;                 ///< that motion was reported as begun
   bool overdue = false;                 ///< its start window has passed and nobody knows whether it began
   bool lost = false;                    ///< could be anywhere in its reach
+
+  [[nodiscard]] bool operator==(const Neighbour& other) const {
+    return robot == other.robot && motion == other.motion && start_from == other.start_from && start_until == other.start_until &&
+           committed == other.committed && started == other.started && overdue == other.overdue && lost == other.lost;
+  }
 };
 
 /// A robot that stands, with the motion it should make next.
@@ -77,6 +53,9 @@ struct EscapeRules {
   bool keep_next = true;             ///< prefer goals from which the robot's next command can be carried out
 };
 
+/// Whether an assessment also says why: its conflicts. What it decides is the same.
+enum class Evidence { no, yes };
+
 /// Times the planner must keep around a decision.
 struct Timing {
   Instant earliest{};  ///< no start before: now + lead
@@ -87,6 +66,7 @@ struct Timing {
 struct Service {
   bool in_turn = false;  ///< robots are served in turn 1 … n, one commanded robot at a time; else whoever can start does
   bool escapes = false;  ///< deadlocks are resolved by escapes
+  bool maps = false;     ///< it asks for the maps of motions as they are, so that they may be built before
   EscapeRules rules;     ///< which
 };
 
@@ -101,14 +81,17 @@ class Strategy {
   [[nodiscard]] virtual std::string_view name() const = 0;
   [[nodiscard]] virtual Service service() const { return {}; }
 
-  /// Start of `candidate` in sight of `neighbours`.
+  /// Start of `candidate` in sight of `neighbours`. Where there is none, there is none later either, unless a neighbour changes.
   [[nodiscard]] virtual Assessment assess(const Candidate& candidate, const std::vector<Neighbour>& neighbours, const Timing& timing,
-                                          MapStore& maps) const = 0;
+                                          MapStore& maps, Evidence evidence = Evidence::yes) const = 0;
 };
 
-/// Starts of `candidate` that `map` (of its motion against the neighbour's) forbids, for a neighbour that is not lost: widened by all that
-/// is uncertain about both starts, and until a neighbour whose departure clears the way is known to have left; such a one goes to
-/// `departures`.
+/// Starts of `candidate` that a neighbour forbids which is not lost, by the map of their motions: widened by all that is uncertain about
+/// both starts, and until a neighbour whose departure clears the way is known to have left; such a one goes to `departures`. United.
+[[nodiscard]] std::vector<StartInterval> forbidden_by(const Candidate& candidate, const Neighbour& neighbour, const Timing& timing,
+                                                      const KeptMap& kept, std::vector<model::RobotIndex>& departures);
+
+/// The same from any map, one interval for each of its cells: the evidence.
 [[nodiscard]] std::vector<ForbiddenStart> forbidden_by_map(const Candidate& candidate, const Neighbour& neighbour, const Timing& timing,
                                                            const TimingMap& map, std::vector<model::RobotIndex>& departures);
 

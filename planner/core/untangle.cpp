@@ -155,7 +155,7 @@ class Untangling {
         neighbours.push_back(std::move(n));
       }
     }
-    return strategy_.assess(candidate, neighbours, timing_, maps_).start.has_value();
+    return strategy_.assess(candidate, neighbours, timing_, maps_, Evidence::no).start.has_value();
   }
 
   bool can_serve(const State& state) {

@@ -38,7 +38,8 @@ struct Objection {
 
 }  // namespace
 
-Assessment Zone::assess(const Candidate& candidate, const std::vector<Neighbour>& neighbours, const Timing& timing, MapStore& maps) const {
+Assessment Zone::assess(const Candidate& candidate, const std::vector<Neighbour>& neighbours, const Timing& timing, MapStore& maps,
+                        Evidence evidence) const {
   Assessment a;
   const ZoneVisit own = zone_.visit(candidate.robot, *candidate.motion);
   std::vector<Objection> objections;
@@ -54,7 +55,7 @@ Assessment Zone::assess(const Candidate& candidate, const std::vector<Neighbour>
         const TimingMap token = token_map(own, zone_.visit(n.robot, *n.motion));
         o.token = forbidden_by_map(candidate, n, timing, token, a.departures);
       }
-      o.bodies = forbidden_by_map(candidate, n, timing, maps.get(candidate.motion, n.motion), a.departures);
+      o.bodies = forbidden_by_map(candidate, n, timing, maps.get(candidate.motion, n.motion).map, a.departures);
     }
     o.add_to(all);
     objections.push_back(std::move(o));
@@ -64,25 +65,26 @@ Assessment Zone::assess(const Candidate& candidate, const std::vector<Neighbour>
   a.windows = complement(united(std::move(all)), timing.earliest);
   if (!a.windows.empty()) a.start = a.windows.front().from;
 
+  const bool unknown = std::any_of(objections.begin(), objections.end(), [](const Objection& o) { return !o.lost.empty(); });
+  if (!a.start) {
+    a.reason = unknown ? model::Reason::robot_unknown : model::Reason::blocked;
+  } else if (*a.start > timing.earliest) {
+    a.reason = model::Reason::delayed;
+  }
+  if (evidence == Evidence::no) return a;
+
   const StartInterval span{timing.earliest, a.start.value_or(model::kForever)};
-  bool unknown = false;
   for (std::size_t i = 0; i < neighbours.size(); ++i) {
     const Neighbour& n = neighbours[i];
     const Objection& o = objections[i];
     if (!o.lost.empty()) {
       a.conflicts.push_back(lost_conflict(candidate, n, timing.earliest));
-      unknown = true;
       continue;
     }
     auto conflict = zone_conflict(candidate, own, n, o.token, span);
-    auto bodies = explain_conflict(candidate, n, maps.get(candidate.motion, n.motion), o.bodies, span);
+    auto bodies = explain_conflict(candidate, n, maps.get(candidate.motion, n.motion).map, o.bodies, span);
     if (!conflict || (bodies && bodies->until > conflict->until)) conflict = std::move(bodies);
     if (conflict) a.conflicts.push_back(std::move(*conflict));
-  }
-  if (!a.start) {
-    a.reason = unknown ? model::Reason::robot_unknown : model::Reason::blocked;
-  } else if (*a.start > timing.earliest) {
-    a.reason = model::Reason::delayed;
   }
   return a;
 }

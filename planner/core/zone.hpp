@@ -18,7 +18,7 @@ class Zone final : public Strategy {
 
   [[nodiscard]] std::string_view name() const override { return "zone"; }
   [[nodiscard]] Assessment assess(const Candidate& candidate, const std::vector<Neighbour>& neighbours, const Timing& timing,
-                                  MapStore& maps) const override;
+                                  MapStore& maps, Evidence evidence) const override;
 
  private:
   SharedZone zone_;

@@ -22,6 +22,7 @@ constexpr double kLead = 0.04;            // [s]
 constexpr double kStartTolerance = 0.06;  // [s]
 constexpr std::chrono::milliseconds kPostureTimeout{500};
 constexpr std::chrono::milliseconds kStateOnChange{50};  // the state follows changes no faster than this
+constexpr std::chrono::milliseconds kQuiet{50};          // with nothing due for so long maps are prepared
 constexpr std::size_t kDecisionsKept = 100'000;
 
 double elapsed_seconds() {
@@ -101,8 +102,14 @@ void PlannerNode::stop() {
 void PlannerNode::run() {
   while (!stopping_) {
     auto deadline = std::min(next_heartbeat_, state_changed_ ? std::min(next_state_, Clock::now() + kStateOnChange) : next_state_);
-    if (const auto due = planner_.next_deadline()) deadline = std::min(deadline, epoch_ + due->time_since_epoch());
-    (void)wait_.until(deadline);
+    bool quiet = true;
+    if (const auto due = planner_.next_deadline()) {
+      deadline = std::min(deadline, epoch_ + due->time_since_epoch());
+      quiet = Clock::now() + kQuiet < epoch_ + due->time_since_epoch();
+    }
+    // One map at a time: what comes in meanwhile waits no longer than that.
+    const bool prepared = quiet && planner_.prepare();
+    (void)wait_.until(prepared ? Clock::now() : deadline);
     take_all();
     publish(planner_.advance(now()));
     const auto t = Clock::now();
@@ -117,11 +124,17 @@ void PlannerNode::run() {
     }
   }
   const auto decisions = app::statistics_of(decision_times_);
+  const auto maps = planner_.maps().statistics();
   log(LogLevel::info, "stopped",
       {{"decisions", decisions.count},
        {"decision_p50_ms", decisions.p50},
        {"decision_p99_ms", decisions.p99},
-       {"decision_max_ms", decisions.max}});
+       {"decision_max_ms", decisions.max},
+       {"maps_built", maps.built},
+       {"maps_reused", maps.reused},
+       {"maps_evicted", maps.evicted},
+       {"maps_kept", maps.kept},
+       {"maps_bytes", maps.bytes}});
 }
 
 template <typename Event>

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -182,7 +183,7 @@ void expect_nothing_missed(const Grid& truth, const Grid& blocked, const DenseMo
 
 /// Each blocked cell holds a collision, or is as small as cells get and its bodies are nearer than they may move inside it.
 void expect_justified(const TimingMap& map, const Grid& truth, SampledMotion& own, SampledMotion& other, const DenseMotion& dense_own,
-                      const DenseMotion& dense_other, Tally& tally) {
+                      const DenseMotion& dense_other, double resolution, Tally& tally) {
   const double own_piece = own.motion().duration() / static_cast<double>(std::size_t{1} << own.depth());
   const double other_piece = other.motion().duration() / static_cast<double>(std::size_t{1} << other.depth());
   for (const BlockedCell& c : map.blocked) {
@@ -193,7 +194,7 @@ void expect_justified(const TimingMap& map, const Grid& truth, SampledMotion& ow
     ++tally.wrong_cells;
     EXPECT_TRUE(c.tau1 == kNever || c.tau1 - c.tau0 <= own_piece + 1e-9) << "given up before the resolution limit";
     EXPECT_TRUE(c.t0 == -kNever || c.t1 == kNever || c.t1 - c.t0 <= other_piece + 1e-9) << "given up before the resolution limit";
-    EXPECT_LE(std::max(own_piece, other_piece), kResolution + 1e-9);
+    EXPECT_LE(std::max(own_piece, other_piece), resolution + 1e-9);
     EXPECT_LE(c.clearance, c.bound);
     tally.worst_wrong = std::max(tally.worst_wrong, c.clearance);
   }
@@ -296,15 +297,18 @@ model::Motion random_motion(Seed& seed, const model::Robot& robot) {
   }
 }
 
+/// However coarse the map: that decides how deep it is divided, which robot first, and how much is looked at more closely.
 TEST(TimingMap, MissesNoCollisionOfADenseGrid) {
+  constexpr std::array<double, 5> resolutions{kResolution, kResolution, 0.003, 0.03, 0.1};  // [s]
   Seed seed{61};
   Tally tally;
   std::size_t pairs = 0;
   for (std::size_t k = 0; pairs < scaled(kPairs) && !HasFailure(); ++k) {
     const TwoRobots two = random_robots(seed, k);
     // Pairs that never come near say nothing: nearly all of those are left out.
-    SampledMotion own{random_motion(seed, two.a), kResolution};
-    SampledMotion other{random_motion(seed, two.b), kResolution};
+    const double resolution = resolutions[k % resolutions.size()];
+    SampledMotion own{random_motion(seed, two.a), resolution};
+    SampledMotion other{random_motion(seed, two.b), resolution};
     const TimingMap map = core::build_timing_map(own, other, 0.0);
     if (map.blocked.empty() && !seed.chance(0.02)) continue;
     ++pairs;
@@ -317,7 +321,7 @@ TEST(TimingMap, MissesNoCollisionOfADenseGrid) {
     tally.colliding += map.blocked.empty() ? 0 : 1;
     SCOPED_TRACE(::testing::Message() << "pair " << k << ", durations " << own.motion().duration() << " and " << other.motion().duration());
     expect_nothing_missed(oracle.grid(), blocked_points(map, dense_own, dense_other), dense_own, dense_other, tally);
-    expect_justified(map, oracle.grid(), own, other, dense_own, dense_other, tally);
+    expect_justified(map, oracle.grid(), own, other, dense_own, dense_other, resolution, tally);
   }
   std::printf("%zu maps, %zu with blocked cells, %zu distances each; %zu collisions missed\n", tally.maps, tally.colliding,
               tally.evaluations / std::max<std::size_t>(tally.maps, 1), tally.misses);
@@ -385,7 +389,7 @@ TEST(TimingMap, WindowsEndWhereBodiesMeetOrGraze) {
     DenseMotion dense_other{other.motion(), 0.5};
     const Oracle oracle{dense_own, dense_other};
     expect_nothing_missed(oracle.grid(), blocked_points(map, dense_own, dense_other), dense_own, dense_other, tally);
-    expect_justified(map, oracle.grid(), own, other, dense_own, dense_other, tally);
+    expect_justified(map, oracle.grid(), own, other, dense_own, dense_other, kResolution, tally);
     for (const Border& border : window_borders(map, oracle.grid(), dense_own, dense_other)) {
       errors.push_back(border.error);
       if (border.error <= 2 * kResolution + kStep) continue;
@@ -423,7 +427,7 @@ TEST(TimingMap, OfTheExperimentTakesFewDistances) {
   const Oracle oracle{dense_own, dense_other};
   Tally tally;
   expect_nothing_missed(oracle.grid(), blocked_points(map, dense_own, dense_other), dense_own, dense_other, tally);
-  expect_justified(map, oracle.grid(), own, other, dense_own, dense_other, tally);
+  expect_justified(map, oracle.grid(), own, other, dense_own, dense_other, kResolution, tally);
 }
 
 /// What a cover of shifts holds is forbidden by what was added, and it knows all of that but for less than a bucket at each end.

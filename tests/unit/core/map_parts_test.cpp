@@ -111,22 +111,5 @@ TEST(Reach, HoldsEveryPostureOfAnyArm) {
   }
 }
 
-TEST(MapStore, KeepsMapsAsLongAsTheirMotionsLive) {
-  const auto cell = experiment_cell();
-  core::MapStore store{0, nullptr};
-  const auto a = sampled(cell->robots[0], cell->robots[0].start, pose_mm(350, 0, 200), 0.1);
-  const auto b = sampled(cell->robots[1], cell->robots[1].start, pose_mm(350, 0, 200), 0.1);
-  const auto* first = &store.get(a, b);
-  EXPECT_EQ(&store.get(a, b), first) << "built once";
-  EXPECT_EQ(store.size(), 1U);
-  (void)store.get(b, a);
-  EXPECT_EQ(store.size(), 2U) << "the other way round is another map";
-  for (int i = 0; i < 1000; ++i) {
-    const auto passing = std::make_shared<SampledMotion>(model::Motion::rest(cell->robots[1], cell->robots[1].start), 0.1);
-    (void)store.get(a, passing);
-  }
-  EXPECT_LT(store.size(), 300U) << "maps of motions that are gone are forgotten";
-}
-
 }  // namespace
 }  // namespace interlace::test

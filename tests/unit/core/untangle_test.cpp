@@ -42,7 +42,7 @@ struct Tangle {
       ASSERT_TRUE(motion) << motion.error().text;
       for (model::RobotIndex other = 0; other < views.size(); ++other) {
         if (other == i) continue;
-        EXPECT_TRUE(maps.get(*motion, views[other].motion()).blocked.empty()) << "robot " << i << " meets robot " << other;
+        EXPECT_TRUE(maps.get(*motion, views[other].motion()).map.blocked.empty()) << "robot " << i << " meets robot " << other;
       }
       stand(i, (*motion)->motion().to());
     };

@@ -1,0 +1,78 @@
+#include "planner/core/map_store.hpp"
+
+#include <algorithm>
+
+namespace interlace::core {
+
+namespace {
+
+KeptMap build(SampledMotion& commanded, SampledMotion& moving, double margin) {
+  KeptMap kept;
+  kept.map = build_timing_map(commanded, moving, margin);
+  kept.map.blocked.shrink_to_fit();
+  kept.forbidden = forbidden_shifts(kept.map, commanded.robot().controller.speed_error, moving.robot().controller.speed_error);
+  const auto& blocked = kept.map.blocked;
+  const auto before = std::find_if(blocked.begin(), blocked.end(), [](const BlockedCell& c) { return c.t0 == -kNever; });
+  if (before != blocked.end()) kept.blocked_before_start = static_cast<std::size_t>(before - blocked.begin());
+  return kept;
+}
+
+std::size_t bytes_of(const KeptMap& kept) {
+  return sizeof(KeptMap) + kept.map.blocked.capacity() * sizeof(BlockedCell) + kept.forbidden.capacity() * sizeof(ForbiddenShift);
+}
+
+}  // namespace
+
+const KeptMap& MapStore::get(const SampledMotionPtr& commanded, const SampledMotionPtr& moving) {
+  const auto key = std::make_pair(commanded->id(), moving->id());
+  ++uses_;
+  if (const auto found = maps_.find(key); found != maps_.end()) {
+    found->second.last_use = uses_;
+    return *found->second.map;
+  }
+  if (full()) make_room();
+  if (on_build_) on_build_(commanded, moving);
+  const double before = stopwatch_ ? stopwatch_() : 0;
+  auto map = std::make_shared<const KeptMap>(build(*commanded, *moving, margin_));
+  if (stopwatch_) build_times_.push_back(stopwatch_() - before);
+  ++built_;
+  Kept kept{commanded, moving, std::move(map), 0, uses_};
+  kept.bytes = bytes_of(*kept.map);
+  bytes_ += kept.bytes;
+  return *maps_.emplace(key, std::move(kept)).first->second.map;
+}
+
+/// First those that nobody can ask for any more; if that is not enough, the half that was not used for longest.
+void MapStore::make_room() {
+  for (auto it = maps_.begin(); it != maps_.end();) {
+    it = it->second.commanded.expired() || it->second.moving.expired() ? drop(it) : std::next(it);
+  }
+  if (maps_.size() < limits_.maps / 2 && bytes_ < limits_.bytes / 2) return;
+  std::vector<std::uint64_t> uses;
+  for (const auto& [key, kept] : maps_) uses.push_back(kept.last_use);
+  const auto middle = uses.begin() + static_cast<std::ptrdiff_t>(uses.size() / 2);
+  std::nth_element(uses.begin(), middle, uses.end());
+  const std::uint64_t oldest_kept = *middle;
+  for (auto it = maps_.begin(); it != maps_.end();) {
+    const bool goes = it->second.last_use <= oldest_kept;
+    evicted_ += goes ? 1 : 0;
+    it = goes ? drop(it) : std::next(it);
+  }
+}
+
+MapStore::Maps::iterator MapStore::drop(Maps::iterator kept) {
+  bytes_ -= kept->second.bytes;
+  return maps_.erase(kept);
+}
+
+MapStatistics MapStore::statistics() const {
+  MapStatistics s;
+  s.built = built_;
+  s.reused = static_cast<std::size_t>(uses_) - built_;
+  s.evicted = evicted_;
+  s.kept = maps_.size();
+  s.bytes = bytes_;
+  return s;
+}
+
+}  // namespace interlace::core
