@@ -12,7 +12,7 @@ constexpr double kRounding = 1e-9;  // [m] of distances and ways, on the safe si
 }
 
 ClearanceObserver::ClearanceObserver(const model::Cell& cell, double step, double patience)
-    : cell_(cell), step_(step), patience_(patience), tracks_(cell.robots.size()) {
+    : cell_(cell), step_(step), patience_(patience), tracks_(cell.robots.size()), fixtures_(cell) {
   for (model::RobotIndex a = 0; a < tracks_.size(); ++a) {
     for (model::RobotIndex b = a + 1; b < tracks_.size(); ++b) {
       PairClearance pair;
@@ -47,7 +47,7 @@ void ClearanceObserver::examine_up_to(double newest) {
     reached = std::min(reached, track.samples.back().t);
     begin = std::max(begin, track.samples.front().t);
   }
-  if (talking < 2) return;
+  if (talking < (fixtures_.pairs().empty() ? 2U : 1U)) return;
   if (!next_) next_ = begin;
   while (*next_ <= reached) {
     place_at(*next_);
@@ -106,6 +106,10 @@ void ClearanceObserver::measure(double t) {
     state.touching = contact;
     any_contact = any_contact || contact;
   }
+  for (model::RobotIndex i = 0; i < tracks_.size(); ++i) {
+    const Track& track = tracks_[i];
+    if (track.placed && fixtures_.measure(i, cell_.robots[i].model, track.bodies, track.travelled, t, step_)) any_contact = true;
+  }
   if (any_contact) below_zero_ += step_;
 }
 
@@ -156,8 +160,15 @@ std::optional<PairClearance> ClearanceObserver::least() const {
   return best ? std::optional{*best} : std::nullopt;
 }
 
+std::optional<double> ClearanceObserver::least_clearance() const {
+  std::optional<double> least;
+  if (const auto pair = this->least()) least = pair->least;
+  if (const FixtureClearance* pair = fixtures_.least(); pair && (!least || pair->least < *least)) least = pair->least;
+  return least;
+}
+
 std::size_t ClearanceObserver::contacts() const {
-  std::size_t n = 0;
+  std::size_t n = fixtures_.contacts();
   for (const PairClearance& pair : pairs_) n += pair.contacts;
   return n;
 }

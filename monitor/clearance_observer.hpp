@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/model/cell.hpp"
+#include "monitor/fixture_observer.hpp"
 
 namespace interlace::monitor {
 
@@ -20,8 +21,8 @@ struct PairClearance {
   std::size_t contacts = 0;  ///< how often a collision began
 };
 
-/// Judges a run by the robots' postures alone: places every capsule and measures every pair of links at equal steps of time, postures
-/// in between interpolated. Shares neither state nor distance code with the planner, so a mistake there shows here.
+/// Judges a run by the robots' postures alone: places every capsule and measures every pair of links, and every link and fixture, at equal
+/// steps of time, postures in between interpolated. Shares neither state nor distance code with the planner, so a mistake there shows here.
 /// Pure: time comes in with the postures. Not thread-safe.
 class ClearanceObserver {
  public:
@@ -34,8 +35,11 @@ class ClearanceObserver {
   /// Least clearance of all pairs so far; empty until two robots were seen at the same time.
   [[nodiscard]] std::optional<PairClearance> least() const;
   [[nodiscard]] const std::vector<PairClearance>& pairs() const { return pairs_; }
-  [[nodiscard]] double below_zero() const { return below_zero_; }  ///< time in which any pair was in collision [s]
-  [[nodiscard]] std::size_t contacts() const;
+  [[nodiscard]] const FixtureObserver& fixtures() const { return fixtures_; }
+  /// Least clearance of anything measured so far [m], fixtures included; empty when nothing was.
+  [[nodiscard]] std::optional<double> least_clearance() const;
+  [[nodiscard]] double below_zero() const { return below_zero_; }                        ///< time in which anything was in collision [s]
+  [[nodiscard]] std::size_t contacts() const;                                            ///< fixtures included
   [[nodiscard]] double observed() const { return static_cast<double>(steps_) * step_; }  ///< time examined [s]
 
  private:
@@ -69,6 +73,7 @@ class ClearanceObserver {
   std::vector<Track> tracks_;
   std::vector<PairClearance> pairs_;
   std::vector<PairState> states_;
+  FixtureObserver fixtures_;
   std::optional<double> next_;  // next time to examine [s]
   std::size_t steps_ = 0;
   double below_zero_ = 0;

@@ -21,6 +21,7 @@ static_assert(wire::STATE_COMPLETED == static_cast<int>(model::CommandState::com
 static_assert(wire::REASON_BLOCKED == static_cast<int>(model::Reason::blocked));
 static_assert(wire::REASON_UNKNOWN_ID == static_cast<int>(model::Reason::unknown_id));
 static_assert(wire::REASON_DEADLOCK == static_cast<int>(model::Reason::deadlock));
+static_assert(wire::REASON_FIXTURE_COLLISION == static_cast<int>(model::Reason::fixture_collision));
 static_assert(wire::WAY_PLUS_Z == static_cast<int>(model::EscapeWay::plus_z));
 static_assert(wire::WAY_HOME == static_cast<int>(model::EscapeWay::home));
 static_assert(wire::EXECUTION_FAILED == static_cast<int>(model::ExecutionState::failed));
@@ -275,7 +276,7 @@ Converted<StatusMessage> from_wire(const wire::CommandStatus& w, const std::stri
   status.escape = w.escape();
   status.serves = model::CommandId{v.name_or_empty("serves", w.serves().to_string())};
   status.state = v.known("state", w.state(), model::CommandState::failed);
-  status.reason = v.known("reason", w.reason(), model::Reason::deadlock);
+  status.reason = v.known("reason", w.reason(), model::Reason::fixture_collision);
   status.text = v.text("text", w.text().to_string(), kMaxText);
   status.submitted = v.stamp("submitted", w.submitted());
   status.start = if_present<model::Instant>(w.has_start(), [&] { return v.stamp("start", w.start()); });
@@ -378,7 +379,7 @@ Converted<model::PlannerState> from_wire(const wire::PlannerState& w, const std:
     state.robots.push_back({model::RobotName{v.name("robots.name", r.name().to_string())},
                             v.known("robots.mode", r.mode(), model::RobotMode::moving), r.queued(),
                             model::CommandId{v.name_or_empty("robots.current", r.current().to_string())},
-                            v.known("robots.reason", r.reason(), model::Reason::deadlock),
+                            v.known("robots.reason", r.reason(), model::Reason::fixture_collision),
                             v.text("robots.text", r.text().to_string(), kMaxText), read_conflicts(v, r.conflicts()),
                             read_refusals(v, r.refusals()), model::CommandId{v.name_or_empty("robots.serves", r.serves().to_string())}});
   }

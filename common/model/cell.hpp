@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/model/fixture.hpp"
 #include "common/model/ids.hpp"
 #include "common/model/robot_model.hpp"
 
@@ -54,10 +55,12 @@ struct PlanningOptions {
   std::optional<Box> zone;                ///< of the strategy `zone`; default: made from what the robots can reach
 };
 
-/// Checked description of one cell: at least one robot, unique names, start postures reachable, inside limits and clear of each other.
+/// Checked description of one cell: at least one robot, unique names, start postures reachable, inside limits and clear of each other
+/// and of the fixtures.
 struct Cell {
   std::string name;
   std::vector<Robot> robots;
+  std::vector<Fixture> fixtures;
   PlanningOptions planning;
 
   /// Index of the robot called `name`, if there is one.

@@ -77,10 +77,11 @@ enum class Reason : std::uint8_t {
   not_ready,         ///< the robot itself is not heard from or not ready
   refused_by_proxy,  ///< start was missed or refused; planned again
   controller_fault,
-  on_request,  ///< cancelled or stopped by a client
-  unknown_id,  ///< no such command
-  escape,      ///< out of the way of the command it serves; or of that command: others are sent out of its way first
-  deadlock     ///< nobody in the way will move by itself and no escape was found: a person is asked for help
+  on_request,        ///< cancelled or stopped by a client
+  unknown_id,        ///< no such command
+  escape,            ///< out of the way of the command it serves; or of that command: others are sent out of its way first
+  deadlock,          ///< nobody in the way will move by itself and no escape was found: a person is asked for help
+  fixture_collision  ///< a fixture of the cell is in the way
 };
 [[nodiscard]] const char* to_string(Reason r);
 

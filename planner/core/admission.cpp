@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "planner/core/fixture_clearance.hpp"
+
 namespace interlace::core {
 
 namespace {
@@ -32,11 +34,20 @@ class PathCheck {
     return walk(0, 0, [this](const SampledMotion::Piece& piece) -> std::optional<model::MotionError> {
       for (const auto& [i, j] : motion_.robot().model.self_pairs) {
         if (near(piece.bodies[i], piece.bodies[j], piece.reach[i] + piece.reach[j])) {
-          return error(piece, model::Reason::self_collision, fmt::format("{} would touch the robot's own {}", name(i), name(j)));
+          return error(piece.centre, model::Reason::self_collision, fmt::format("{} would touch the robot's own {}", name(i), name(j)));
         }
       }
       return std::nullopt;
     });
+  }
+
+  std::optional<model::MotionError> against(const std::vector<model::Fixture>& fixtures) {
+    const auto contact = first_contact(motion_, fixtures, margin_);
+    if (!contact) return std::nullopt;
+    const double length = motion_.motion().length(contact->t);
+    return error(
+        contact->t, model::Reason::fixture_collision,
+        fmt::format("{} would touch fixture {} after {:.1f} mm,", name(contact->body), fixtures[contact->fixture].name, 1e3 * length));
   }
 
   std::optional<model::MotionError> against(const ImmovableBase& base) {
@@ -44,7 +55,7 @@ class PathCheck {
       for (std::size_t i = 0; i < piece.bodies.size(); ++i) {
         for (const auto& [j, body] : base.bodies()) {
           if (near(piece.bodies[i], body, piece.reach[i])) {
-            return error(piece, model::Reason::base_collision,
+            return error(piece.centre, model::Reason::base_collision,
                          fmt::format("{} would touch {} of {}", name(i), base.robot().model.capsules[j].name, base.robot().name.str()));
           }
         }
@@ -70,11 +81,11 @@ class PathCheck {
 
   [[nodiscard]] std::string name(std::size_t body) const { return motion_.robot().model.capsules[body].name; }
 
-  [[nodiscard]] model::MotionError error(const SampledMotion::Piece& piece, model::Reason reason, std::string what) const {
+  [[nodiscard]] model::MotionError error(double t, model::Reason reason, std::string what) const {
     const model::Motion& m = motion_.motion();
     const double whole = m.length(m.duration());
-    const double progress = whole > 0 ? m.length(piece.centre) / whole : m.duration() > 0 ? piece.centre / m.duration() : 1;
-    const Vector3 place = motion_.motion().tcp(piece.centre).translation();
+    const double progress = whole > 0 ? m.length(t) / whole : m.duration() > 0 ? t / m.duration() : 1;
+    const Vector3 place = m.tcp(t).translation();
     return {reason, progress, place,
             fmt::format("{} at {:.0f} % of the path, TCP at ({:.1f}, {:.1f}, {:.1f}) mm", what, 100 * progress, 1e3 * place.x(),
                         1e3 * place.y(), 1e3 * place.z())};
@@ -89,6 +100,7 @@ class PathCheck {
 std::optional<model::MotionError> path_collision(SampledMotion& motion, const model::Cell& cell, model::RobotIndex robot, double margin) {
   PathCheck check{motion, margin};
   if (auto found = check.against_itself()) return found;
+  if (auto found = check.against(cell.fixtures)) return found;
   for (model::RobotIndex other = 0; other < cell.robots.size(); ++other) {
     if (other == robot) continue;
     if (auto found = check.against(ImmovableBase{cell.robots[other]})) return found;

@@ -8,7 +8,7 @@
 
 namespace interlace::core {
 
-/// First place on the path of `motion` where the robot would touch itself or the immovable base of a neighbour, if there is one.
+/// First place on the path of `motion` where the robot would touch itself, a fixture or the immovable base of a neighbour, if there is one.
 /// Certified in continuous time like the collision maps. Source: DESIGN section 6.
 [[nodiscard]] std::optional<model::MotionError> path_collision(SampledMotion& motion, const model::Cell& cell, model::RobotIndex robot,
                                                                double margin);

@@ -6,6 +6,7 @@
 #include "common/app/config/clearance_check.hpp"
 #include "common/app/config/document.hpp"
 #include "common/app/config/fingerprint.hpp"
+#include "common/app/config/fixture_section.hpp"
 #include "common/app/config/model_section.hpp"
 #include "common/app/config/pose_section.hpp"
 #include "common/app/config/preamble.hpp"
@@ -176,16 +177,7 @@ std::vector<PlacedRobot> read_robots(const Field& field, const Models& models, c
   return robots;
 }
 
-void refuse_fixtures(const Mapping& file) {
-  const auto fixtures = file.find("fixtures");
-  if (!fixtures) return;
-  const auto items = fixtures->items("fixtures");
-  if (items && !items->empty()) {
-    fixtures->refuse("fixtures are not supported in this version: robots would pass through them; expected []");
-  }
-}
-
-model::Cell read_cell(const YAML::Node& document, Findings& findings) {
+model::Cell read_cell(const YAML::Node& document, const std::string& file_name, const MeshReader& meshes, Findings& findings) {
   model::Cell cell;
   const auto file = Field{document, "", findings}.mapping({"interlace", "units", "cell", "models", "robots", "fixtures", "planning"});
   if (!file) return cell;
@@ -195,10 +187,10 @@ model::Cell read_cell(const YAML::Node& document, Findings& findings) {
   const Models models = models_field ? read_models(*models_field, units) : Models{};
   const auto robots_field = file->require("robots");
   const auto robots = robots_field ? read_robots(*robots_field, models, units) : std::vector<PlacedRobot>{};
-  refuse_fixtures(*file);
+  if (const auto fixtures = file->find("fixtures")) cell.fixtures = read_fixtures(*fixtures, units, file_name, meshes);
   if (const auto planning = file->find("planning")) cell.planning = read_planning(*planning, units);
   // With anything else in doubt, units above all, collisions found now could mislead.
-  if (findings.none()) check_clearances(robots, cell.planning.margin, units);
+  if (findings.none()) check_clearances(robots, cell.fixtures, cell.planning.margin, units);
   for (const auto& placed : robots) cell.robots.push_back(placed.robot);
   return cell;
 }
@@ -210,12 +202,12 @@ const std::vector<std::string>& strategy_names() {
   return names;
 }
 
-model::Result<LoadedCell, ConfigError> parse_cell(const std::string& text, const std::string& file_name) {
+model::Result<LoadedCell, ConfigError> parse_cell(const std::string& text, const std::string& file_name, const MeshReader& meshes) {
   Findings findings{file_name};
   const auto document = parse_document(text, findings);
   if (!document) return model::unexpected{findings.error()};
   LoadedCell loaded;
-  loaded.cell = read_cell(*document, findings);
+  loaded.cell = read_cell(*document, file_name, meshes, findings);
   if (!findings.none()) return model::unexpected{findings.error()};
   loaded.fingerprint = fingerprint(loaded.cell);
   return loaded;

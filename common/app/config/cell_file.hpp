@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/app/config/finding.hpp"
+#include "common/app/config/fixture_section.hpp"
 #include "common/model/cell.hpp"
 #include "common/model/result.hpp"
 
@@ -20,11 +21,13 @@ struct LoadedCell {
 /// Names `planning.strategy` may have.
 [[nodiscard]] const std::vector<std::string>& strategy_names();
 
-/// The cell described by `text` (format: docs/files.md); `file_name` only appears in messages. Checks everything the type Cell
-/// promises, and that homes, like starts, are clear of each other. Pure; any thread.
-[[nodiscard]] model::Result<LoadedCell, ConfigError> parse_cell(const std::string& text, const std::string& file_name);
+/// The cell described by `text` (format: docs/files.md); `file_name` appears in messages, and meshes are looked for in its folder. Checks
+/// everything the type Cell promises, and that homes, like starts, are clear of each other and of the fixtures. As pure as `meshes`; any
+/// thread. Without `meshes` a cell with meshes is refused.
+[[nodiscard]] model::Result<LoadedCell, ConfigError> parse_cell(const std::string& text, const std::string& file_name,
+                                                                const MeshReader& meshes = nullptr);
 
-/// Reads and parses the file at `path`.
+/// Reads and parses the file at `path`, and the meshes that it names.
 [[nodiscard]] model::Result<LoadedCell, ConfigError> load_cell(const std::string& path);
 
 }  // namespace interlace::app

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/model/fixture_distance.hpp"
 #include "common/model/segment_distance.hpp"
 
 namespace interlace::app {
@@ -60,9 +61,24 @@ bool check_pair(const Standing& a, const Standing& b, double margin, const Units
   return false;
 }
 
-bool check_all(const std::vector<Standing>& standing, double margin, const Units& units) {
+bool check_fixture(const Standing& s, const model::Fixture& fixture, double margin, const Units& units) {
+  for (std::size_t i = 0; i < s.capsules.size(); ++i) {
+    if (s.robot->model.capsules[i].link == 0) continue;  // it stands on some of them
+    const double d = model::clearance(s.capsules[i], fixture);
+    if (d > margin) continue;
+    s.field->refuse(fmt::format("in collision with fixture {}: clearance of {} would be {}, expected > {}", fixture.name, s.link(i),
+                                show(d, coordinate(units)), show(margin, coordinate(units))));
+    return false;
+  }
+  return true;
+}
+
+bool check_all(const std::vector<Standing>& standing, const std::vector<model::Fixture>& fixtures, double margin, const Units& units) {
   bool clear = true;
-  for (const auto& s : standing) clear = check_self(s, units) && clear;
+  for (const auto& s : standing) {
+    clear = check_self(s, units) && clear;
+    for (const auto& fixture : fixtures) clear = check_fixture(s, fixture, margin, units) && clear;
+  }
   for (std::size_t i = 0; i < standing.size(); ++i) {
     for (std::size_t j = i + 1; j < standing.size(); ++j) clear = check_pair(standing[i], standing[j], margin, units) && clear;
   }
@@ -71,14 +87,16 @@ bool check_all(const std::vector<Standing>& standing, double margin, const Units
 
 }  // namespace
 
-void check_clearances(const std::vector<PlacedRobot>& robots, double margin, const Units& units) {
+void check_clearances(const std::vector<PlacedRobot>& robots, const std::vector<model::Fixture>& fixtures, double margin,
+                      const Units& units) {
   std::vector<Standing> starts;
   std::vector<Standing> homes;
   for (const auto& placed : robots) {
     starts.push_back(stand(placed.robot, placed.robot.start, placed.start));
     homes.push_back(stand(placed.robot, placed.robot.home, placed.home));
   }
-  if (check_all(starts, margin, units)) check_all(homes, margin, units);  // homes are starts by default: do not complain twice
+  // Homes are starts by default: do not complain twice.
+  if (check_all(starts, fixtures, margin, units)) check_all(homes, fixtures, margin, units);
 }
 
 }  // namespace interlace::app

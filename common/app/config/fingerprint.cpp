@@ -80,6 +80,36 @@ void write(const model::Robot& robot, Canonical& out) {
   out.number(robot.controller.speed_error);
 }
 
+/// After the number of the shape's type.
+struct WriteShape {
+  Canonical& out;
+
+  void operator()(const model::SphereShape& s) const { out.number(s.radius); }
+  void operator()(const model::BoxShape& s) const { out.numbers(s.half); }
+  void operator()(const model::CylinderShape& s) const {
+    out.number(s.radius);
+    out.number(s.half_length);
+  }
+  void operator()(const model::PlaneShape& s) const {
+    out.numbers(s.normal);
+    out.number(s.offset);
+  }
+  void operator()(const model::MeshShape& s) const {
+    out.count(s.mesh->solid() ? 1 : 0);
+    out.count(s.mesh->triangles().size());
+    for (std::size_t i = 0; i < s.mesh->triangles().size(); ++i) {
+      for (const model::Vector3& corner : s.mesh->corners(i)) out.numbers(corner);
+    }
+  }
+};
+
+void write(const model::Fixture& fixture, Canonical& out) {
+  out.text(fixture.name);
+  out.pose(fixture.X_WO);
+  out.count(fixture.shape.index());
+  std::visit(WriteShape{out}, fixture.shape);
+}
+
 std::uint64_t fnv1a(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char c : text) {
@@ -96,6 +126,8 @@ std::uint64_t fingerprint(const model::Cell& cell) {
   out.text(cell.name);
   out.count(cell.robots.size());
   for (const auto& robot : cell.robots) write(robot, out);
+  out.count(cell.fixtures.size());
+  for (const auto& fixture : cell.fixtures) write(fixture, out);
   out.number(cell.planning.resolution);
   out.number(cell.planning.margin);
   out.text(cell.planning.strategy);
