@@ -13,6 +13,9 @@ namespace {
 /// Rounding of poses and of FCL's distance, kept on the safe side [m].
 constexpr double kRounding = 1e-7;
 
+/// Room made at once for what a map collects: most maps never need more.
+constexpr std::size_t kRoom = 1024;
+
 /// Width of the buckets in which forbidden shifts are counted [s]: a small part of the resolution.
 constexpr double kBucket = 0.001;
 
@@ -116,13 +119,13 @@ class Subdivision {
     if (open_.size() == last) return;
     set_times(found, a, b);
     if (blocked) {
-      map_.blocked.push_back(found);
+      block(found);
     } else if (at_resolution && !closer_) {
       put_off(at, found, reached, last);
     } else {
       std::swap(open_[last], open_[worst]);
       const bool own_is_farther = a.reach[found.own_body] >= b.reach[found.other_body];
-      if (!divide(at, at_resolution, own_is_farther, last)) map_.blocked.push_back(found);
+      if (!divide(at, at_resolution, own_is_farther, last)) block(found);
     }
     open_.resize(last);
   }
@@ -143,7 +146,16 @@ class Subdivision {
     return true;
   }
 
+  void block(const BlockedCell& found) {
+    if (map_.blocked.capacity() == 0) map_.blocked.reserve(kRoom);
+    map_.blocked.push_back(found);
+  }
+
   void put_off(const Place& at, const BlockedCell& found, std::size_t first, std::size_t last) {
+    if (put_off_.capacity() == 0) {
+      put_off_.reserve(kRoom);
+      put_off_pairs_.reserve(2 * kRoom);
+    }
     const std::size_t begin = put_off_pairs_.size();
     put_off_pairs_.insert(put_off_pairs_.end(), open_.begin() + static_cast<std::ptrdiff_t>(first),
                           open_.begin() + static_cast<std::ptrdiff_t>(last));
