@@ -33,6 +33,7 @@ class Subdivision {
   /// Examines all of both motions' pieces.
   void examine(const Panel& panel) {
     panel_ = panel;
+    panels_.push_back(panel);
     const std::size_t own_bodies = panel.own->robot().model.capsules.size();
     const std::size_t other_bodies = panel.other->robot().model.capsules.size();
     open_.clear();  // each cell on the way down adds each pair at most once
@@ -56,7 +57,7 @@ class Subdivision {
         map_.blocked.push_back(p.found);
         continue;
       }
-      panel_ = p.panel;
+      panel_ = panels_[p.panel];
       open_.assign(put_off_pairs_.begin() + static_cast<std::ptrdiff_t>(p.first_pair),
                    put_off_pairs_.begin() + static_cast<std::ptrdiff_t>(p.last_pair));
       cell(p.place, 0, open_.size());
@@ -77,7 +78,7 @@ class Subdivision {
   };
   /// A cell of the resolution whose centre seems clear.
   struct PutOff {
-    Panel panel;
+    std::size_t panel;  // of `panels_`
     Place place;
     BlockedCell found;
     std::size_t first_pair, last_pair;  // of `put_off_pairs_`
@@ -159,7 +160,7 @@ class Subdivision {
     const std::size_t begin = put_off_pairs_.size();
     put_off_pairs_.insert(put_off_pairs_.end(), open_.begin() + static_cast<std::ptrdiff_t>(first),
                           open_.begin() + static_cast<std::ptrdiff_t>(last));
-    put_off_.push_back({panel_, at, found, begin, put_off_pairs_.size()});
+    put_off_.push_back({panels_.size() - 1, at, found, begin, put_off_pairs_.size()});
   }
 
   void set_times(BlockedCell& c, const SampledMotion::Piece& a, const SampledMotion::Piece& b) const {
@@ -174,8 +175,9 @@ class Subdivision {
   TimingMap& map_;
   double margin_;
   Panel panel_{};
-  bool closer_ = false;     // look at pieces smaller than the resolution too
-  std::vector<Pair> open_;  // lists of the cells from the first one down to the one examined, one behind the other
+  std::vector<Panel> panels_;  // examined so far
+  bool closer_ = false;        // look at pieces smaller than the resolution too
+  std::vector<Pair> open_;     // lists of the cells from the first one down to the one examined, one behind the other
   std::vector<PutOff> put_off_;
   std::vector<Pair> put_off_pairs_;
 };
