@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
+#include <utility>
 
 #include "bench/benchmarks.hpp"
 #include "bench/cpu_time.hpp"
@@ -109,8 +111,28 @@ void continuous_collision(benchmark::State& state, const MapCases& cases) {
   }
 }
 
+/// Programs whose maps are found out when a benchmark first asks for them.
+class Programs {
+ public:
+  Programs(std::string cells, std::vector<std::pair<std::string, std::string>> programs)
+      : cells_(std::move(cells)), programs_(std::move(programs)) {}
+
+  [[nodiscard]] const std::vector<MapCases>& maps() const {
+    if (maps_.empty()) {
+      for (const auto& [folder, program] : programs_) maps_.push_back(maps_of(cells_, folder, program));
+    }
+    return maps_;
+  }
+
+ private:
+  std::string cells_;
+  std::vector<std::pair<std::string, std::string>> programs_;  // folder and program
+  mutable std::vector<MapCases> maps_;
+};
+
 /// All maps of some programs, one after the other.
-void maps_of_all(benchmark::State& state, const std::vector<MapCases>& all) {
+void maps_of_all(benchmark::State& state, const Programs& programs) {
+  const std::vector<MapCases>& all = programs.maps();
   std::size_t maps = 0;
   double longest = 0;
   for (auto _ : state) {
@@ -129,7 +151,8 @@ void maps_of_all(benchmark::State& state, const std::vector<MapCases>& all) {
 }
 
 /// Whole grids of all these would take minutes: of each the postures are computed, and the distances of some random points stand for all.
-void brute_force_of_all(benchmark::State& state, const std::vector<MapCases>& all) {
+void brute_force_of_all(benchmark::State& state, const Programs& programs) {
+  const std::vector<MapCases>& all = programs.maps();
   std::mt19937 random{1};
   for (auto _ : state) {
     double seconds = 0;
@@ -154,11 +177,11 @@ void brute_force_of_all(benchmark::State& state, const std::vector<MapCases>& al
   }
 }
 
-void register_all(const std::string& name, const std::vector<MapCases>& all) {
+void register_all(const std::string& name, const std::shared_ptr<const Programs>& all) {
   benchmark::RegisterBenchmark((name + "/maps").c_str(), [all](benchmark::State& s) {
-    maps_of_all(s, all);
+    maps_of_all(s, *all);
   })->Unit(benchmark::kMillisecond);
-  benchmark::RegisterBenchmark((name + "/brute_force").c_str(), [all](benchmark::State& s) { brute_force_of_all(s, all); })
+  benchmark::RegisterBenchmark((name + "/brute_force").c_str(), [all](benchmark::State& s) { brute_force_of_all(s, *all); })
       ->Unit(benchmark::kMillisecond)
       ->UseManualTime()
       ->Iterations(1);
@@ -178,12 +201,13 @@ void register_map_benchmarks(const std::string& cells) {
   add("closed_form", closed_form);
   add("continuous_collision", continuous_collision)->UseManualTime()->Iterations(1);
 
-  register_all("exp-6-2", {maps_of(cells, "exp-6-2", "program")});
-  std::vector<MapCases> patterns;
+  register_all("exp-6-2",
+               std::make_shared<const Programs>(cells, std::vector{std::make_pair(std::string{"exp-6-2"}, std::string{"program"})}));
+  std::vector<std::pair<std::string, std::string>> patterns;
   for (const char* folder : {"pattern-triangle-3", "pattern-serial-3", "pattern-zigzag-4", "pattern-square-4", "pattern-serial-4"}) {
-    for (const char* program : {"program-1", "program-2", "program-3"}) patterns.push_back(maps_of(cells, folder, program));
+    for (const char* program : {"program-1", "program-2", "program-3"}) patterns.emplace_back(folder, program);
   }
-  register_all("patterns", patterns);
+  register_all("patterns", std::make_shared<const Programs>(cells, std::move(patterns)));
 }
 
 }  // namespace interlace::bench

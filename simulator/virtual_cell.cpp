@@ -142,8 +142,8 @@ class World {
 
   /// What the daemon does between events: it prepares as long as nothing is due within `kQuiet`.
   void prepare_until(Instant next) {
-    constexpr Duration kQuiet = std::chrono::milliseconds{50};
-    constexpr Duration kMap = std::chrono::milliseconds{10};  // no map takes longer, on average far less
+    constexpr Duration kQuiet = std::chrono::milliseconds{10};
+    constexpr Duration kMap = std::chrono::milliseconds{2};  // on average it takes a fraction of this
     for (Instant t = now_; t + kQuiet < next && planner_.prepare(); t += kMap) {
     }
   }

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "planner/core/fixture_clearance.hpp"
+#include "planner/core/reach.hpp"
 
 namespace interlace::core {
 
@@ -12,10 +15,10 @@ namespace {
 class ImmovableBase {
  public:
   explicit ImmovableBase(const model::Robot& robot) : robot_(&robot) {
-    std::vector<model::Capsule> capsules;
-    model::place_capsules(robot.model, robot.X_WB, robot.start, capsules);
+    const auto& capsules = robot.model.capsules;
     for (std::size_t i = 0; i < capsules.size(); ++i) {
-      if (robot.model.capsules[i].link == 0) bodies_.emplace_back(i, Body{capsules[i]});
+      const model::LinkCapsule& c = capsules[i];
+      if (c.link == 0) bodies_.emplace_back(i, Body{{robot.X_WB * c.a, robot.X_WB * c.b, c.radius}});
     }
   }
   [[nodiscard]] const model::Robot& robot() const { return *robot_; }
@@ -25,6 +28,15 @@ class ImmovableBase {
   const model::Robot* robot_;
   std::vector<std::pair<std::size_t, Body>> bodies_;
 };
+
+/// A ball around that base.
+ReachableVolume base_volume(const model::Robot& robot) {
+  ReachableVolume ball{robot.X_WB.translation(), 0};
+  for (const model::LinkCapsule& c : robot.model.capsules) {
+    if (c.link == 0) ball.radius = std::max(ball.radius, std::max(c.a.norm(), c.b.norm()) + c.radius);
+  }
+  return ball;
+}
 
 class PathCheck {
  public:
@@ -101,8 +113,9 @@ std::optional<model::MotionError> path_collision(SampledMotion& motion, const mo
   PathCheck check{motion, margin};
   if (auto found = check.against_itself()) return found;
   if (auto found = check.against(cell.fixtures)) return found;
+  const ReachableVolume reach = reachable_volume(cell.robots[robot]);
   for (model::RobotIndex other = 0; other < cell.robots.size(); ++other) {
-    if (other == robot) continue;
+    if (other == robot || !reach.meets(base_volume(cell.robots[other]), margin)) continue;
     if (auto found = check.against(ImmovableBase{cell.robots[other]})) return found;
   }
   return std::nullopt;

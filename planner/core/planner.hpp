@@ -143,7 +143,8 @@ class Planner {
   std::shared_ptr<const Strategy> strategy_;  // stateless: copies share it
   Neighbourhood neighbourhood_;
   MapStore maps_;
-  bool prepared_ = false;  // nothing was left to prepare since the last event
+  bool prepared_ = false;          // nothing was left to prepare since the last event
+  std::size_t next_prepared_ = 0;  // the robot for which preparing goes on
   std::vector<RobotRecord> robots_;
   std::unordered_map<model::CommandId, model::CommandStatus> known_;  // newest status of every command still answered by id
   std::deque<model::CommandId> finished_;                             // final ones, oldest first

@@ -49,9 +49,16 @@ std::uint64_t Planner::scene_around(const RobotRecord& r) const {
 bool Planner::make_room(Instant now, Decisions& out) {
   if (!may_escape()) return false;
   if (clearing_) return go_on_clearing(now, out);
+  // Who waits for one that is under way is in no deadlock: mostly that is everybody, and nothing else has to be looked at.
+  std::vector<RobotRecord*> stuck = candidates();
+  const auto waits_for_a_mover = [&](const RobotRecord* r) {
+    return std::any_of(r->blockers.begin(), r->blockers.end(), [&](model::RobotIndex b) { return robots_[b].committed.has_value(); });
+  };
+  stuck.erase(std::remove_if(stuck.begin(), stuck.end(), waits_for_a_mover), stuck.end());
+  if (stuck.empty()) return false;
   const WaitGraph graph = wait_graph();
   std::vector<RobotRecord*> deadlocked;
-  for (RobotRecord* r : candidates()) {
+  for (RobotRecord* r : stuck) {
     const bool knows_all = std::none_of(r->blockers.begin(), r->blockers.end(),
                                         [&](model::RobotIndex b) { return graph.node(b).state == WaitNode::State::unknown; });
     if (graph.deadlocked(index_of(*r)) && knows_all) deadlocked.push_back(r);

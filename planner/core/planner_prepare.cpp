@@ -7,9 +7,12 @@ namespace interlace::core {
 
 bool Planner::prepare() {
   if (prepared_ || !strategy_->service().maps) return false;
-  const bool built = std::any_of(robots_.begin(), robots_.end(), [this](const RobotRecord& r) { return prepare_for(r); });
-  prepared_ = !built;
-  return built;
+  for (std::size_t looked = 0; looked < robots_.size(); ++looked) {
+    if (prepare_for(robots_[next_prepared_])) return true;
+    next_prepared_ = (next_prepared_ + 1) % robots_.size();
+  }
+  prepared_ = true;
+  return false;
 }
 
 /// Builds one map of `r`'s next command against a neighbour: as it stands or moves, as it will stand after that, and in its own next

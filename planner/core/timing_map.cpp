@@ -13,6 +13,9 @@ namespace {
 /// Rounding of poses and of FCL's distance, kept on the safe side [m].
 constexpr double kRounding = 1e-7;
 
+/// Room made at once for what a map collects: most maps never need more.
+constexpr std::size_t kRoom = 1024;
+
 /// Width of the buckets in which forbidden shifts are counted [s]: a small part of the resolution.
 constexpr double kBucket = 0.001;
 
@@ -30,6 +33,7 @@ class Subdivision {
   /// Examines all of both motions' pieces.
   void examine(const Panel& panel) {
     panel_ = panel;
+    panels_.push_back(panel);
     const std::size_t own_bodies = panel.own->robot().model.capsules.size();
     const std::size_t other_bodies = panel.other->robot().model.capsules.size();
     open_.clear();  // each cell on the way down adds each pair at most once
@@ -53,7 +57,7 @@ class Subdivision {
         map_.blocked.push_back(p.found);
         continue;
       }
-      panel_ = p.panel;
+      panel_ = panels_[p.panel];
       open_.assign(put_off_pairs_.begin() + static_cast<std::ptrdiff_t>(p.first_pair),
                    put_off_pairs_.begin() + static_cast<std::ptrdiff_t>(p.last_pair));
       cell(p.place, 0, open_.size());
@@ -74,7 +78,7 @@ class Subdivision {
   };
   /// A cell of the resolution whose centre seems clear.
   struct PutOff {
-    Panel panel;
+    std::size_t panel;  // of `panels_`
     Place place;
     BlockedCell found;
     std::size_t first_pair, last_pair;  // of `put_off_pairs_`
@@ -116,13 +120,13 @@ class Subdivision {
     if (open_.size() == last) return;
     set_times(found, a, b);
     if (blocked) {
-      map_.blocked.push_back(found);
+      block(found);
     } else if (at_resolution && !closer_) {
       put_off(at, found, reached, last);
     } else {
       std::swap(open_[last], open_[worst]);
       const bool own_is_farther = a.reach[found.own_body] >= b.reach[found.other_body];
-      if (!divide(at, at_resolution, own_is_farther, last)) map_.blocked.push_back(found);
+      if (!divide(at, at_resolution, own_is_farther, last)) block(found);
     }
     open_.resize(last);
   }
@@ -143,11 +147,20 @@ class Subdivision {
     return true;
   }
 
+  void block(const BlockedCell& found) {
+    if (map_.blocked.capacity() == 0) map_.blocked.reserve(kRoom);
+    map_.blocked.push_back(found);
+  }
+
   void put_off(const Place& at, const BlockedCell& found, std::size_t first, std::size_t last) {
+    if (put_off_.capacity() == 0) {
+      put_off_.reserve(kRoom);
+      put_off_pairs_.reserve(2 * kRoom);
+    }
     const std::size_t begin = put_off_pairs_.size();
     put_off_pairs_.insert(put_off_pairs_.end(), open_.begin() + static_cast<std::ptrdiff_t>(first),
                           open_.begin() + static_cast<std::ptrdiff_t>(last));
-    put_off_.push_back({panel_, at, found, begin, put_off_pairs_.size()});
+    put_off_.push_back({panels_.size() - 1, at, found, begin, put_off_pairs_.size()});
   }
 
   void set_times(BlockedCell& c, const SampledMotion::Piece& a, const SampledMotion::Piece& b) const {
@@ -162,8 +175,9 @@ class Subdivision {
   TimingMap& map_;
   double margin_;
   Panel panel_{};
-  bool closer_ = false;     // look at pieces smaller than the resolution too
-  std::vector<Pair> open_;  // lists of the cells from the first one down to the one examined, one behind the other
+  std::vector<Panel> panels_;  // examined so far
+  bool closer_ = false;        // look at pieces smaller than the resolution too
+  std::vector<Pair> open_;     // lists of the cells from the first one down to the one examined, one behind the other
   std::vector<PutOff> put_off_;
   std::vector<Pair> put_off_pairs_;
 };

@@ -22,7 +22,7 @@ constexpr double kLead = 0.04;            // [s]
 constexpr double kStartTolerance = 0.06;  // [s]
 constexpr std::chrono::milliseconds kPostureTimeout{500};
 constexpr std::chrono::milliseconds kStateOnChange{50};  // the state follows changes no faster than this
-constexpr std::chrono::milliseconds kQuiet{50};          // with nothing due for so long maps are prepared
+constexpr std::chrono::milliseconds kQuiet{10};          // with nothing due for so long maps are prepared: hardly any takes longer
 constexpr std::size_t kDecisionsKept = 100'000;
 
 double elapsed_seconds() {
