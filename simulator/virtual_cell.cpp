@@ -99,7 +99,8 @@ class World {
     watch_until(now_ + model::from_seconds(options_.trace_period));
     app::RunReport report = collector_.finish(options_.strategy);
     if (options_.observe) report.collisions = observer_.contacts();
-    if (const auto least = observer_.least()) report.least_clearance = least->least;
+    report.fixture_contacts = observer_.fixtures().report();
+    report.least_clearance = observer_.least_clearance();
     if (options_.stopwatch) {
       auto builds = planner_.maps().take_build_times();
       if (options_.on_map_builds) options_.on_map_builds(builds);
