@@ -20,7 +20,7 @@ class ClearanceWatch {
   /// Postures from proxies that work with another cell description are left out, and counted.
   void on_posture(const dds::PostureMessage& message, Timeline::LocalTime received);
 
-  [[nodiscard]] bool saw_anything() const { return observer_.least().has_value(); }
+  [[nodiscard]] bool saw_anything() const { return observer_.least_clearance().has_value(); }
   [[nodiscard]] bool saw_collision() const;
   [[nodiscard]] std::size_t of_another_cell() const { return strangers_; }
   [[nodiscard]] const monitor::ClearanceObserver& observer() const { return observer_; }

@@ -7,7 +7,7 @@
 
 namespace interlace::monitor {
 
-FixtureObserver::FixtureObserver(const model::Cell& cell) : fixtures_(cell.fixtures) {
+FixtureObserver::FixtureObserver(const model::Cell& cell) : cell_(cell) {
   for (model::RobotIndex robot = 0; robot < cell.robots.size(); ++robot) {
     for (std::size_t fixture = 0; fixture < cell.fixtures.size(); ++fixture) {
       FixtureClearance pair;
@@ -22,8 +22,9 @@ FixtureObserver::FixtureObserver(const model::Cell& cell) : fixtures_(cell.fixtu
 
 bool FixtureObserver::measure(model::RobotIndex robot, const model::RobotModel& model, const std::vector<model::Capsule>& bodies,
                               double travelled, double t, double step) {
+  const std::size_t count = cell_.fixtures.size();
   bool any = false;
-  for (std::size_t k = robot * fixtures_.size(); k < (robot + 1) * fixtures_.size(); ++k) {
+  for (std::size_t k = robot * count; k < (robot + 1) * count; ++k) {
     const bool contact = measure(pairs_[k], states_[k], model, bodies, travelled, t);
     if (contact) {
       pairs_[k].below_zero += step;
@@ -47,7 +48,7 @@ bool FixtureObserver::measure(FixtureClearance& pair, State& state, const model:
   state.bodies = bodies.size();
   state.travelled = travelled;
   state.clearance = std::numeric_limits<double>::infinity();
-  const model::Fixture& fixture = fixtures_[pair.fixture];
+  const model::Fixture& fixture = cell_.fixtures[pair.fixture];
   bool contact = false;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (model.capsules[i].link == 0) continue;
@@ -75,6 +76,15 @@ std::size_t FixtureObserver::contacts() const {
   std::size_t n = 0;
   for (const FixtureClearance& pair : pairs_) n += pair.contacts;
   return n;
+}
+
+std::vector<app::FixtureContact> FixtureObserver::report() const {
+  std::vector<app::FixtureContact> contacts;
+  for (const FixtureClearance& pair : pairs_) {
+    if (pair.contacts == 0) continue;
+    contacts.push_back({cell_.robots[pair.robot].name, pair.link, cell_.fixtures[pair.fixture].name, pair.contacts, pair.least, pair.at});
+  }
+  return contacts;
 }
 
 }  // namespace interlace::monitor

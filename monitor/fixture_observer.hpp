@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/app/report.hpp"
 #include "common/model/cell.hpp"
 
 namespace interlace::monitor {
@@ -34,6 +35,8 @@ class FixtureObserver {
   /// The one with the least clearance; null when none was measured.
   [[nodiscard]] const FixtureClearance* least() const;
   [[nodiscard]] std::size_t contacts() const;
+  /// The contacts, for a report.
+  [[nodiscard]] std::vector<app::FixtureContact> report() const;
 
  private:
   struct State {
@@ -45,7 +48,7 @@ class FixtureObserver {
   bool measure(FixtureClearance& pair, State& state, const model::RobotModel& model, const std::vector<model::Capsule>& bodies,
                double travelled, double t);
 
-  const std::vector<model::Fixture>& fixtures_;
+  const model::Cell& cell_;
   std::vector<FixtureClearance> pairs_;
   std::vector<State> states_;
 };

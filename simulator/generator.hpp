@@ -20,7 +20,7 @@ struct GeneratorOptions {
 };
 
 /// A random program that is well-formed (DESIGN section 6). Of each command, from where its robot will be:
-/// * it is admissible: reachable, within limits, clear of the robot itself and of the others' bases;
+/// * it is admissible: reachable, within limits, clear of the robot itself, of the fixtures and of the others' bases;
 /// * all of it, its end included, is clear of all others standing at home, certified like the planner's collision maps;
 /// * from its end the robot can go home, by a linear or a joint move that is admissible and clear in the same way;
 /// * it is admissible and clear in the same way from home too, so that a robot that was sent home in between can still carry it out.

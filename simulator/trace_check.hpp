@@ -7,19 +7,21 @@
 #include <vector>
 
 #include "common/model/cell.hpp"
+#include "simulator/fixture_check.hpp"
 
 namespace interlace::sim {
 
-/// Where two robots were nearest to each other.
+/// Where two robots, or a robot and a fixture, were nearest to each other.
 struct Nearest {
   double clearance = std::numeric_limits<double>::infinity();  ///< [m]; ≤ 0 is a collision
   double t = 0;                                                ///< [s]
   model::RobotIndex a = 0, b = 0;
-  std::string link_a, link_b;
+  std::string link_a, link_b;  ///< with a fixture `b` is `a`, and `link_b` is "fixture NAME"
 };
 
-/// Judges recorded joint postures: the least clearance of all pairs of robots, and how often one began to touch another. What it says
-/// holds for every posture given. Distances and bounds are its own and share no code with the planner, nor with the observer.
+/// Judges recorded joint postures: the least clearance of all pairs of robots, and of robots and fixtures, and how often one began to touch
+/// another. What it says holds for every posture given. Distances and bounds are its own and share no code with the planner, nor with the
+/// observer.
 ///
 /// Work is left out only where a bound proves that it changes nothing: since a pair was last measured, no point of a robot has moved
 /// farther than the sum over its joints of |Δq| times the joint's longest lever. While that cannot bring the pair below the least
@@ -32,9 +34,10 @@ class TraceCheck {
   void step(double t, const std::vector<model::Joints>& joints);
 
   [[nodiscard]] const Nearest& least() const { return least_; }
-  [[nodiscard]] std::size_t collisions() const { return collisions_; }  ///< how often a pair began to touch
-  [[nodiscard]] std::size_t steps() const { return steps_; }            ///< postures judged
-  [[nodiscard]] std::size_t measured() const { return measured_; }      ///< pairs measured in them, for statistics
+  [[nodiscard]] std::size_t collisions() const { return collisions_; }              ///< how often a pair began to touch, fixtures included
+  [[nodiscard]] std::size_t fixture_contacts() const { return fixture_contacts_; }  ///< how many of them with a fixture
+  [[nodiscard]] std::size_t steps() const { return steps_; }                        ///< postures judged
+  [[nodiscard]] std::size_t measured() const { return measured_; }                  ///< pairs measured in them, for statistics
 
  private:
   struct Arm {
@@ -51,14 +54,25 @@ class TraceCheck {
     double least = std::numeric_limits<double>::infinity();
     bool touching = false;
   };
+  struct Place {
+    model::RobotIndex robot;
+    std::size_t fixture;
+    double clearance = 0;   // when last measured: at least this [m]
+    double travelled = -1;  // then; before the first measurement negative
+    double least = std::numeric_limits<double>::infinity();
+    bool touching = false;
+  };
   void measure(double t, Pair& pair);
+  void measure(double t, Place& place);
   const std::vector<model::Capsule>& bodies(model::RobotIndex robot);
 
   const model::Cell& cell_;
   std::vector<Arm> arms_;
   std::vector<Pair> pairs_;
+  FixtureCheck fixtures_;
+  std::vector<Place> places_;
   Nearest least_;
-  std::size_t collisions_ = 0, steps_ = 0, measured_ = 0;
+  std::size_t collisions_ = 0, fixture_contacts_ = 0, steps_ = 0, measured_ = 0;
 };
 
 }  // namespace interlace::sim

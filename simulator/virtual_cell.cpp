@@ -102,7 +102,8 @@ class World {
     watch_until(now_ + model::from_seconds(options_.trace_period));
     app::RunReport report = collector_.finish(options_.strategy);
     if (options_.observe) report.collisions = observer_.contacts();
-    if (const auto least = observer_.least()) report.least_clearance = least->least;
+    report.fixture_contacts = observer_.fixtures().report();
+    report.least_clearance = observer_.least_clearance();
     if (options_.on_maps) options_.on_maps(planner_.maps().statistics());
     if (options_.stopwatch) {
       auto builds = planner_.maps().take_build_times();

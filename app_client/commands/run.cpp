@@ -78,7 +78,8 @@ bool same_cell(const app::LoadedCell& cell, const Arguments& a, const Client& cl
 
 void add_clearance(const ClearanceWatch& clearance, app::RunReport& report) {
   if (!clearance.saw_anything()) return;
-  report.least_clearance = clearance.observer().least()->least;
+  report.least_clearance = clearance.observer().least_clearance();
+  report.fixture_contacts = clearance.observer().fixtures().report();
   report.collisions = clearance.observer().contacts();
 }
 

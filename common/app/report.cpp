@@ -143,6 +143,15 @@ nlohmann::json to_json(const RunReport& r) {
                         {"conflicts", to_json(row.conflicts)},
                         {"refusals", to_json(row.refusals)}});
   }
+  nlohmann::json touched = nlohmann::json::array();
+  for (const FixtureContact& c : r.fixture_contacts) {
+    touched.push_back({{"robot", c.robot.str()},
+                       {"link", c.link},
+                       {"fixture", c.fixture},
+                       {"contacts", c.count},
+                       {"min_clearance_m", c.clearance},
+                       {"at_s", c.at}});
+  }
   return {{"strategy", r.strategy},
           {"makespan_s", r.makespan},
           {"submitted", r.submitted},
@@ -152,6 +161,7 @@ nlohmann::json to_json(const RunReport& r) {
           {"escapes", r.escapes},
           {"warnings", r.warnings},
           {"collisions", or_null(r.collisions)},
+          {"fixture_contacts", std::move(touched)},
           {"min_clearance_m", or_null(r.least_clearance)},
           {"map_build_ms", to_json(r.map_build)},
           {"decision_ms", to_json(r.decision)},
@@ -167,6 +177,9 @@ std::string summary(const RunReport& r) {
   if (r.collisions && *r.collisions) text += fmt::format(", {} COLLISIONS", *r.collisions);
   if (r.least_clearance) text += fmt::format(", least clearance {:.1f} mm", 1e3 * *r.least_clearance);
   text += '\n';
+  for (const FixtureContact& c : r.fixture_contacts) {
+    text += fmt::format("  {}'s {} touched fixture {}, {} times, deepest at {:.2f} s\n", c.robot.str(), c.link, c.fixture, c.count, c.at);
+  }
   for (const CommandRow& row : r.commands) {
     if (row.state == CommandState::completed) continue;
     text += fmt::format("  {} ({}) {}: {}\n", row.id.str(), row.robot.str(), model::to_string(row.state),

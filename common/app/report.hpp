@@ -37,14 +37,24 @@ struct CommandRow {
   std::vector<model::EscapeRefusal> refusals;  ///< of its last deadlock: what was tried in vain
 };
 
+/// How a robot touched something that never moves.
+struct FixtureContact {
+  model::RobotName robot;
+  std::string link, fixture;
+  std::size_t count = 0;  ///< how often it began
+  double clearance = 0;   ///< of the deepest one [m], ≤ 0
+  double at = 0;          ///< its time [s]
+};
+
 /// What a run came to: the report of the contract (DESIGN section 8). What a program cannot know stays empty and is null in JSON.
 struct RunReport {
   std::string strategy;
   double makespan = 0;  ///< first start to last end [s]
   std::size_t submitted = 0, completed = 0, rejected = 0, unserved = 0, escapes = 0;
-  std::size_t warnings = 0;  ///< how often a command came into a deadlock that a person was asked to resolve
-  std::optional<std::size_t> collisions;
-  std::optional<double> least_clearance;  ///< [m]
+  std::size_t warnings = 0;               ///< how often a command came into a deadlock that a person was asked to resolve
+  std::optional<std::size_t> collisions;  ///< with fixtures too
+  std::vector<FixtureContact> fixture_contacts;
+  std::optional<double> least_clearance;  ///< [m], from fixtures too
   std::optional<DurationStatistics> map_build, decision;
   std::vector<CommandRow> commands;
 };

@@ -54,15 +54,16 @@ double distance_to_convex(const Axis& axis, const Nearest& nearest) {
   return std::max(away(high).norm() - 2 * axis.half_length * (high - low), 0.0);
 }
 
-bool crosses(const Vector3& from, const Vector3& to, const std::array<Vector3, 3>& t, const Vector3& normal) {
+/// 0 when the way does not cross the triangle, else 1 along its normal and −1 against it.
+int crossing(const Vector3& from, const Vector3& to, const std::array<Vector3, 3>& t, const Vector3& normal) {
   const double before = normal.dot(from - t[0]);
   const double after = normal.dot(to - t[0]);
-  if ((before > 0) == (after > 0)) return false;
+  if ((before > 0) == (after > 0)) return 0;
   const Vector3 p = from + before / (before - after) * (to - from);
   for (std::size_t i = 0; i < 3; ++i) {
-    if (normal.dot((t[(i + 1) % 3] - t[i]).cross(p - t[i])) < 0) return false;
+    if (normal.dot((t[(i + 1) % 3] - t[i]).cross(p - t[i])) < 0) return 0;
   }
-  return true;
+  return after > 0 ? 1 : -1;
 }
 
 /// A segment is nearest to a triangle where they cross, where one of its ends stands above it, or at an edge. Edges count even where a
@@ -70,7 +71,7 @@ bool crosses(const Vector3& from, const Vector3& to, const std::array<Vector3, 3
 double squared_distance(const Axis& axis, const std::array<Vector3, 3>& t) {
   const Vector3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
   const double area = normal.squaredNorm();
-  if (area > 0 && crosses(axis.a, axis.b, t, normal)) return 0;
+  if (area > 0 && crossing(axis.a, axis.b, t, normal) != 0) return 0;
   double least = std::min({squared_distance(axis, t[0], t[1]), squared_distance(axis, t[1], t[2]), squared_distance(axis, t[2], t[0])});
   if (area <= 0) return least;
   for (const Vector3& end : {axis.a, axis.b}) {
@@ -107,12 +108,15 @@ bool inside(const TriangleMesh& mesh, const Vector3& p) {
       }
       return enter <= leave + 1e-9;
     };
-    std::size_t crossed = 0;
+    int left = 0;
+    int crossed = 0;
     mesh.visit(hit, [&](std::size_t i) {
       const auto t = mesh.corners(i);
-      if (crosses(p, out, t, (t[1] - t[0]).cross(t[2] - t[0]))) ++crossed;
+      const int through = crossing(p, out, t, (t[1] - t[0]).cross(t[2] - t[0]));
+      left += through;
+      crossed += through != 0 ? 1 : 0;
     });
-    return crossed % 2 != 0;
+    return left != 0 || crossed % 2 != 0;
   });
 }
 

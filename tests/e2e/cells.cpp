@@ -44,6 +44,7 @@ models:
          arm("arm4", kJoints) + (cell.r2_joints.empty() ? "" : arm("other", cell.r2_joints)) + "robots:\n" +
          robot(cell, "r1", "arm4", 250, "xyz: [450, 250, 300], rpy: [0, 0, 0]") +
          robot(cell, "r2", cell.r2_joints.empty() ? "arm4" : "other", -250, cell.r2_start) +
+         (cell.fixtures.empty() ? "" : "fixtures:\n" + cell.fixtures) +
          fmt::format("planning: {{resolution: 0.01, margin: 0, strategy: {}, escapes: {}}}\n", cell.strategy, cell.escapes);
 }
 

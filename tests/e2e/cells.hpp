@@ -15,6 +15,7 @@ struct CellText {
   std::string r2_start = "xyz: [450, -250, 300], rpy: [0, 0, 0]";
   std::string r2_joints;  ///< limits of its joints alone, such as "{min: [...], max: [...]}"; empty: as those of r1
   bool escapes = true;
+  std::string fixtures;  ///< the entries of the list, one a line; empty: none
 };
 
 /// The cell file.

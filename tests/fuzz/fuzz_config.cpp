@@ -28,6 +28,7 @@ void check(const model::Cell& cell) {
             robot.tcp.acceleration > 0);
     require(!model::joint_outside_limits(robot.model.joints, robot.start));
   }
+  for (const auto& fixture : cell.fixtures) require(model::is_valid_name(fixture.name) && fixture.X_WO.matrix().allFinite());
 }
 
 void check(const model::Program& program) {

@@ -7,6 +7,7 @@
 #include "common/app/config/document.hpp"
 #include "common/app/config/fingerprint.hpp"
 #include "common/app/config/fixture_section.hpp"
+#include "common/app/config/mesh_file.hpp"
 #include "common/app/config/model_section.hpp"
 #include "common/app/config/pose_section.hpp"
 #include "common/app/config/preamble.hpp"
@@ -217,7 +218,7 @@ model::Result<LoadedCell, ConfigError> load_cell(const std::string& path) {
   Findings findings{path};
   const auto text = read_file(path, findings);
   if (!text) return model::unexpected{findings.error()};
-  return parse_cell(*text, path);
+  return parse_cell(*text, path, read_mesh_file);
 }
 
 }  // namespace interlace::app

@@ -135,6 +135,10 @@ class FixtureReader {
       file->refuse(mesh.error());
       return std::nullopt;
     }
+    if ((*mesh)->triangles().size() > kMaxTriangles) {
+      file->refuse(fmt::format("expected at most {} triangles, it has {}", kMaxTriangles, (*mesh)->triangles().size()));
+      return std::nullopt;
+    }
     if (const std::size_t open = solid ? (*mesh)->open_edges() : 0; open > 0) {
       file->refuse(fmt::format(
           "expected a closed surface, but {} of its edges are open: close it, or say solid: false when nothing can be inside", open));

@@ -141,7 +141,6 @@ INSTANTIATE_TEST_SUITE_P(
                "expected at most start_latency (0.02 s)"},
         Broken{"SpeedErrorLarge", "speed_error: 0.001", "speed_error: 0.9", 40, "robots[0].controller.speed_error", "\"0.9\"",
                "expected at most 0.5"},
-        Broken{"Fixture", "fixtures: []", "fixtures: [{box: 1}]", 46, "fixtures", "[{box: 1}]", "not supported in this version"},
         Broken{"FixturesNoList", "fixtures: []", "fixtures: table", 46, "fixtures", "\"table\"", "expected a list of fixtures"}),
     case_name);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/app/config/program_text.hpp"
+#include "common/model/fixture_distance.hpp"
 #include "common/model/motion.hpp"
 #include "common/model/segment_distance.hpp"
 #include "tests/support/arms.hpp"
@@ -31,7 +32,8 @@ bool same(const model::MotionRequest& a, const model::MotionRequest& b) {
   return std::get<model::JointTarget>(a.target).q == std::get<model::JointTarget>(b.target).q;
 }
 
-/// Least clearance [m] of `robot` on `motion`, every 5 ms, to the others at home, with distances that are not the planner's.
+/// Least clearance [m] of `robot` on `motion`, every 5 ms, to the others at home and to the fixtures, with distances that are not the
+/// planner's.
 double least_clearance(const model::Cell& cell, std::size_t robot, const model::Motion& motion) {
   std::vector<std::vector<model::Capsule>> homes(cell.robots.size());
   for (std::size_t i = 0; i < homes.size(); ++i) {
@@ -47,6 +49,10 @@ double least_clearance(const model::Cell& cell, std::size_t robot, const model::
       for (const auto& a : own) {
         for (const auto& b : homes[other]) least = std::min(least, model::segment_distance(a.a, a.b, b.a, b.b) - a.radius - b.radius);
       }
+    }
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      if (cell.robots[robot].model.capsules[i].link == 0) continue;
+      for (const auto& fixture : cell.fixtures) least = std::min(least, model::clearance(own[i], fixture));
     }
   }
   return least;
@@ -65,8 +71,9 @@ bool can_go_home(const model::Cell& cell, std::size_t robot, const Joints& from)
          carry_out(cell, robot, from, test::joints_to(r.home));
 }
 
-const char* const kCells[] = {"exp-4-2",          "exp-6-1",          "exp-6-2",        "pattern-triangle-3", "pattern-serial-3",
-                              "pattern-zigzag-4", "pattern-square-4", "pattern-ring-5", "pattern-serial-8"};
+const char* const kCells[] = {"exp-4-2",          "exp-6-1",           "exp-6-2",          "pattern-triangle-3",
+                              "pattern-serial-3", "pattern-zigzag-4",  "pattern-square-4", "pattern-ring-5",
+                              "pattern-serial-8", "fixtures-square-4", "fixtures-serial-4"};
 
 class GeneratedProgram : public testing::TestWithParam<const char*> {};
 

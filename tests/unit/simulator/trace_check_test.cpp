@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "common/model/fixture_distance.hpp"
 #include "common/model/segment_distance.hpp"
 #include "monitor/clearance_observer.hpp"
 #include "tests/support/arms.hpp"
+#include "tests/support/fixtures.hpp"
 #include "tests/support/motions.hpp"
 #include "tests/unit/simulator/cells.hpp"
 
@@ -45,11 +47,12 @@ struct Judged {
   std::size_t collisions = 0;
 };
 
-/// Every pair measured at every step.
+/// Every pair, and every robot and fixture, measured at every step.
 Judged measured_throughout(const model::Cell& cell, const Trace& trace) {
   Judged judged;
   std::vector<std::vector<model::Capsule>> bodies(cell.robots.size());
   std::vector<bool> touching(cell.robots.size() * cell.robots.size());
+  std::vector<bool> at_fixture(cell.robots.size() * cell.fixtures.size());
   for (const auto& row : trace) {
     for (std::size_t i = 0; i < row.size(); ++i) model::place_capsules(cell.robots[i].model, cell.robots[i].X_WB, row[i], bodies[i]);
     for (std::size_t i = 0; i < row.size(); ++i) {
@@ -61,6 +64,16 @@ Judged measured_throughout(const model::Cell& cell, const Trace& trace) {
         auto was = touching[i * row.size() + j];
         if (least <= 0 && !was) ++judged.collisions;
         touching[i * row.size() + j] = least <= 0;
+        judged.least = std::min(judged.least, least);
+      }
+      for (std::size_t f = 0; f < cell.fixtures.size(); ++f) {
+        double least = 1e9;
+        for (std::size_t k = 0; k < bodies[i].size(); ++k) {
+          if (cell.robots[i].model.capsules[k].link > 0) least = std::min(least, model::clearance(bodies[i][k], cell.fixtures[f]));
+        }
+        auto was = at_fixture[i * cell.fixtures.size() + f];
+        if (least <= 0 && !was) ++judged.collisions;
+        at_fixture[i * cell.fixtures.size() + f] = least <= 0;
         judged.least = std::min(judged.least, least);
       }
     }
@@ -77,20 +90,22 @@ void expect_agreement(const model::Cell& cell, const Trace& trace) {
     for (std::size_t i = 0; i < trace[k].size(); ++i) observer.on_posture(i, t, trace[k][i]);
   }
   const Judged truth = measured_throughout(cell, trace);
-  const double tolerance = 1e-9;  // [m] rounding of two ways to compute one distance
+  const double rounding = 1e-9;  // [m] of two ways to compute one distance
+  const double tolerance = cell.fixtures.empty() ? rounding : FixtureCheck::kAccuracy;
   EXPECT_NEAR(check.least().clearance, truth.least, tolerance);
   EXPECT_EQ(check.collisions(), truth.collisions);
-  ASSERT_TRUE(observer.least());
-  EXPECT_NEAR(observer.least()->least, truth.least, 1e-6);  // its postures are interpolated, and a step's time is a sum
+  ASSERT_TRUE(observer.least_clearance());
+  EXPECT_NEAR(*observer.least_clearance(), truth.least, 1e-6);  // its postures are interpolated, and a step's time is a sum
   EXPECT_EQ(observer.contacts(), truth.collisions);
   EXPECT_EQ(check.steps(), trace.size());
-  const std::size_t pairs = trace.front().size() * (trace.front().size() - 1) / 2;
+  const std::size_t pairs = trace.front().size() * (trace.front().size() - 1) / 2 + trace.front().size() * cell.fixtures.size();
   EXPECT_LT(check.measured(), pairs * trace.size()) << "no work was left out";
 }
 
 TEST(TraceCheck, LeavesOutNothingThatMatters) {
   test::Seed seed{31};
-  for (const char* name : {"exp-4-2", "exp-6-1", "pattern-square-4", "pattern-ring-5", "pattern-serial-8"}) {
+  for (const char* name :
+       {"exp-4-2", "exp-6-1", "pattern-square-4", "pattern-ring-5", "pattern-serial-8", "fixtures-square-4", "fixtures-serial-4"}) {
     SCOPED_TRACE(name);
     const auto cell = test::deployed_cell(name);
     for (std::size_t k = 0; k < test::scaled(5); ++k) expect_agreement(*cell, wander(seed, *cell, 10));
@@ -108,6 +123,50 @@ TEST(TraceCheck, LeavesOutNothingThatMattersForArmsOfAnyKind) {
     }
     expect_agreement(cell, wander(seed, cell, 10));
   }
+}
+
+TEST(TraceCheck, LeavesOutNothingThatMattersAmongFixturesOfAnyKind) {
+  test::Seed seed{33};
+  for (std::size_t k = 0; k < test::scaled(10); ++k) {
+    model::Cell cell;
+    for (int i = 0; i < 2; ++i) {
+      const auto arm = seed.chance(0.2) ? test::offset_arm() : test::random_arm(seed);
+      cell.robots.push_back(test::robot_at("r" + std::to_string(i), arm, {1.2 * i, seed.uniform(-0.5, 0.5), 0}, seed.uniform(-3, 3)));
+      cell.robots.back().start = test::random_joints(seed, arm);
+    }
+    for (int type = 0; type < test::kFixtureTypes; ++type) cell.fixtures.push_back(test::random_fixture(seed, type, 1.5));
+    expect_agreement(cell, wander(seed, cell, 5));
+  }
+}
+
+TEST(TraceCheck, NamesTheFixtureThatIsTouched) {
+  const auto cell = test::deployed_cell("fixtures-square-4");
+  std::vector<Joints> row;
+  for (const auto& robot : cell->robots) row.push_back(robot.start);
+  TraceCheck check{*cell};
+  monitor::ClearanceObserver observer{*cell, kStep, 1e9};
+  const auto show = [&](std::size_t k) {
+    const double t = kStep * static_cast<double>(k);
+    check.step(t, row);
+    for (std::size_t i = 0; i < row.size(); ++i) observer.on_posture(i, t, row[i]);
+  };
+  for (std::size_t k = 0; k < 10; ++k) show(k);
+  EXPECT_EQ(check.collisions(), 0U);
+  const auto& robot = cell->robots[0];
+  row[0] = model::preferred_posture(robot.model, robot.X_WB.inverse() * test::pose_mm(320, 120, 110)).value();
+  for (std::size_t k = 10; k < 20; ++k) show(k);
+  EXPECT_EQ(check.collisions(), 1U);
+  EXPECT_EQ(check.fixture_contacts(), 1U);
+  EXPECT_EQ(check.least().link_b, "fixture table");
+  EXPECT_LT(check.least().clearance, 0);
+  EXPECT_EQ(observer.contacts(), 1U);
+  const auto touched = observer.fixtures().report();
+  ASSERT_EQ(touched.size(), 1U);
+  EXPECT_EQ(touched.front().robot.str(), "r1");
+  EXPECT_EQ(touched.front().fixture, "table");
+  EXPECT_EQ(touched.front().count, 1U);
+  EXPECT_LT(touched.front().clearance, 0);
+  EXPECT_NEAR(touched.front().at, 0.010, 2 * kStep);
 }
 
 TEST(TraceCheck, FindsAPlantedCollision) {
