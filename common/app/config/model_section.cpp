@@ -13,8 +13,6 @@ using model::kJoints;
 using model::LinkCapsule;
 using model::OpwParameters;
 
-constexpr std::size_t kMostCapsules = 64;
-
 std::optional<std::array<int, kJoints>> read_signs(const Field& field) {
   const auto items = field.items("6 signs, each 1 or -1");
   if (!items) return std::nullopt;
@@ -131,8 +129,8 @@ std::optional<LinkCapsule> read_capsule(const Field& field, const Units& units) 
 std::optional<std::vector<LinkCapsule>> read_capsule_list(const Field& field, const Units& units) {
   const auto items = field.items("capsules");
   if (!items) return std::nullopt;
-  if (items->empty() || items->size() > kMostCapsules) {
-    field.refuse("expected 1 to " + std::to_string(kMostCapsules) + " capsules");
+  if (items->empty() || items->size() > kMaxCapsules) {
+    field.refuse("expected 1 to " + std::to_string(kMaxCapsules) + " capsules");
     return std::nullopt;
   }
   std::vector<LinkCapsule> capsules;

@@ -7,6 +7,8 @@
 
 namespace interlace::app {
 
+inline constexpr std::size_t kMaxCapsules = 64;  ///< of one model
+
 /// One entry under `models`.
 [[nodiscard]] std::optional<model::RobotModel> read_model(const std::string& name, const Field& field, const Units& units);
 

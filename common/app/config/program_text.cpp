@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iterator>
 #include <sstream>
 
+#include "common/app/config/number_text.hpp"
 #include "common/app/config/quantity.hpp"
 
 namespace interlace::app {
@@ -19,31 +19,18 @@ void append(Text& out, fmt::format_string<Args...> format, Args&&... args) {
   fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
 }
 
-/// A number in the file's units: what twelve digits cannot tell from zero is zero, and zero has no sign.
-std::string number(double value, double per_si) {
-  constexpr double kNothing = 1e-10;
-  const double shown = value * per_si;
-  return fmt::format("{:.12g}", std::abs(shown) < kNothing ? 0.0 : shown);
-}
-
-template <typename Values>
-std::string list(const Values& values, double per_si) {
-  std::string text;
-  for (Eigen::Index i = 0; i < values.size(); ++i) text += (i > 0 ? ", " : "") + number(values[i], per_si);
-  return text;
-}
-
 void write_step(Text& out, const model::ProgramStep& step, const Units& units) {
   if (const auto* line = std::get_if<model::LinearTarget>(&step.motion.target)) {
-    append(out, "    - {{move: linear, to: {{xyz: [{}], rpy: [{}]}}", list(line->X_WT.translation(), units.per_metre),
-           list(model::rpy_of(line->X_WT.linear()), units.per_radian));
+    append(out, "    - {{move: linear, to: {{xyz: [{}], rpy: [{}]}}", numbers_text(line->X_WT.translation(), units.per_metre),
+           numbers_text(model::rpy_of(line->X_WT.linear()), units.per_radian));
   } else {
-    append(out, "    - {{move: joint, to: {{joints: [{}]}}", list(std::get<model::JointTarget>(step.motion.target).q, units.per_radian));
+    append(out, "    - {{move: joint, to: {{joints: [{}]}}",
+           numbers_text(std::get<model::JointTarget>(step.motion.target).q, units.per_radian));
   }
-  if (step.motion.velocity) append(out, ", velocity: {}", number(*step.motion.velocity, units.per_metre));
-  if (step.motion.acceleration) append(out, ", acceleration: {}", number(*step.motion.acceleration, units.per_metre));
+  if (step.motion.velocity) append(out, ", velocity: {}", number_text(*step.motion.velocity, units.per_metre));
+  if (step.motion.acceleration) append(out, ", acceleration: {}", number_text(*step.motion.acceleration, units.per_metre));
   if (step.priority != 0) append(out, ", priority: {}", step.priority);
-  if (step.at > 0) append(out, ", at: {}", number(step.at, 1));
+  if (step.at > 0) append(out, ", at: {}", number_text(step.at, 1));
   append(out, "}}\n");
 }
 
