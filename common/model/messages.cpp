@@ -37,6 +37,7 @@ const char* to_string(Reason r) {
     case Reason::unknown_id: return "unknown_id";
     case Reason::escape: return "escape";
     case Reason::deadlock: return "deadlock";
+    case Reason::tool: return "tool";
   }
   return "?";
 }

@@ -90,7 +90,7 @@ class Event : public Strategy {
   static std::vector<ForbiddenStart> forbidden_by(const Candidate& candidate, const Neighbour& n, const Timing& timing, MapStore& maps,
                                                   Assessment& a) {
     if (n.lost) {
-      if (!enters_reach(*candidate.motion, n.motion->robot())) return {};
+      if (!enters_reach(*candidate.motion, n.reach)) return {};
       return {{{model::kEarliest, model::kForever}, 0}};
     }
     return forbidden_by_map(candidate, n, timing, maps.get(candidate.motion, n.motion), a.departures);

@@ -9,6 +9,7 @@
 
 #include "common/model/cell.hpp"
 #include "common/model/messages.hpp"
+#include "planner/core/reach.hpp"
 #include "planner/core/start_windows.hpp"
 
 namespace interlace::core {
@@ -43,12 +44,13 @@ class MapStore {
 /// Another robot as a candidate has to see it.
 struct Neighbour {
   model::RobotIndex robot = 0;
-  SampledMotionPtr motion;              ///< its committed motion, or its standing posture
-  Instant start_from{}, start_until{};  ///< of a committed motion
-  bool committed = false;               ///< has a motion that it will carry out or is carrying out
-  bool started = false;                 ///< that motion was reported as begun
-  bool overdue = false;                 ///< its start window has passed and nobody knows whether it began
-  bool lost = false;                    ///< could be anywhere in its reach
+  SampledMotionPtr motion;                         ///< its committed motion, or its standing posture
+  Instant start_from{}, start_until{};             ///< of a committed motion
+  bool committed = false;                          ///< has a motion that it will carry out or is carrying out
+  bool started = false;                            ///< that motion was reported as begun
+  bool overdue = false;                            ///< its start window has passed and nobody knows whether it began
+  bool lost = false;                               ///< could be anywhere in its reach
+  ReachableVolume reach{Vector3::Zero(), kNever};  ///< that reach, when lost; without better knowledge everywhere
 };
 
 /// A robot that stands, with the motion it should make next.
