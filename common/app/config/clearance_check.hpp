@@ -14,7 +14,8 @@ struct PlacedRobot {
   Field home;  ///< the start's when the file gives no home
 };
 
-/// Complains about robots that touch themselves, or each other by `margin` [m], when all stand at their start and when all stand at home.
-void check_clearances(const std::vector<PlacedRobot>& robots, double margin, const Units& units);
+/// Complains about robots that touch themselves, or each other by `margin` [m], when all stand at their start and when all stand at home,
+/// with what of `tools` they hold at first.
+void check_clearances(const std::vector<PlacedRobot>& robots, const std::vector<model::Tool>& tools, double margin, const Units& units);
 
 }  // namespace interlace::app
