@@ -41,7 +41,8 @@ void ClearanceWatch::on_posture(const dds::PostureMessage& message, Timeline::Lo
     ++strangers_;
     return;
   }
-  observer_.on_posture(*robot, timeline_.place(message.planner_incarnation, message.posture.at, received), message.posture.joints);
+  observer_.on_posture(*robot, timeline_.place(message.planner_incarnation, message.posture.at, received), message.posture.joints,
+                       cell_.cell.set_of(message.posture.holds));
 }
 
 bool ClearanceWatch::saw_collision() const {

@@ -53,6 +53,7 @@ std::string describe(const model::RobotStatus& robot, model::Instant now, std::s
   std::string line = fmt::format("{:<{}}  {:<9}  {:>6}", robot.name.str(), width, model::to_string(robot.mode), robot.queued);
   if (!robot.current.empty()) line += "  " + robot.current.str();
   if (!robot.serves.empty()) line += fmt::format(" (escape for {})", robot.serves.str());
+  for (const auto& tool : robot.holds) line += fmt::format("{}{}", &tool == &robot.holds.front() ? "  holds " : ", ", tool.str());
   const bool waits = robot.mode != model::RobotMode::moving || robot.reason == model::Reason::escape;  // why an escape moves is news
   if (!waits || robot.reason == model::Reason::none) return line;
   const std::string until = until_text(robot, now);
@@ -94,11 +95,14 @@ nlohmann::json to_json(const Answer& answer) {
 }
 
 nlohmann::json to_json(const model::RobotStatus& r) {
+  nlohmann::json holds = nlohmann::json::array();
+  for (const auto& tool : r.holds) holds.push_back(tool.str());
   return {{"name", r.name.str()},
           {"mode", model::to_string(r.mode)},
           {"queued", r.queued},
           {"command", app::name_or_null(r.current.str())},
           {"serves", app::name_or_null(r.serves.str())},
+          {"holds", std::move(holds)},
           {"reason", model::to_string(r.reason)},
           {"explanation", r.text},
           {"conflicts", app::to_json(r.conflicts)},

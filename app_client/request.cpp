@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace interlace::client {
 
@@ -42,6 +43,23 @@ model::Result<model::Target, std::string> make_target(const MotionWords& words, 
   return model::Target{model::LinearTarget{model::make_pose(v.head<3>(), model::rotation_from_rpy(v.tail<3>()))}};
 }
 
+model::Result<std::optional<model::ToolChange>, std::string> make_change(const MotionWords& words) {
+  if (words.attach.empty() && words.detach.empty()) return std::optional<model::ToolChange>{};
+  for (const auto& [option, name] : {std::pair{"--attach", &words.attach}, std::pair{"--detach", &words.detach}}) {
+    if (!name->empty() && !model::is_valid_name(*name)) {
+      return model::unexpected(fmt::format("{}: found \"{}\", expected 1 to 64 letters, digits, '_', '-', '.' or ':'", option, *name));
+    }
+  }
+  if (words.when != "start" && words.when != "completion") {
+    return model::unexpected(fmt::format("--when: found \"{}\", expected start or completion", words.when));
+  }
+  model::ToolChange change;
+  change.attach = model::ToolName{words.attach};
+  change.detach = model::ToolName{words.detach};
+  change.when = words.when == "start" ? model::ToolTime::start : model::ToolTime::completion;
+  return std::optional{change};
+}
+
 }  // namespace
 
 app::Units make_units(const std::string& length, const std::string& angle) {
@@ -76,6 +94,9 @@ model::Result<model::MotionRequest, std::string> make_request(const MotionWords&
     if (!value) return model::unexpected(value.error());
     request.acceleration = *value;
   }
+  const auto tools = make_change(words);
+  if (!tools) return model::unexpected(tools.error());
+  request.tools = *tools;
   return request;
 }
 

@@ -12,7 +12,7 @@ constexpr double kRounding = 1e-9;  // [m] of distances and ways, on the safe si
 }
 
 ClearanceObserver::ClearanceObserver(const model::Cell& cell, double step, double patience)
-    : cell_(cell), step_(step), patience_(patience), tracks_(cell.robots.size()), fixtures_(cell) {
+    : held_(cell), step_(step), patience_(patience), tracks_(cell.robots.size()), fixtures_(cell) {
   for (model::RobotIndex a = 0; a < tracks_.size(); ++a) {
     for (model::RobotIndex b = a + 1; b < tracks_.size(); ++b) {
       PairClearance pair;
@@ -25,10 +25,10 @@ ClearanceObserver::ClearanceObserver(const model::Cell& cell, double step, doubl
   states_.resize(pairs_.size());
 }
 
-void ClearanceObserver::on_posture(model::RobotIndex robot, double t, const model::Joints& joints) {
+void ClearanceObserver::on_posture(model::RobotIndex robot, double t, const model::Joints& joints, model::ToolSet tools) {
   auto& samples = tracks_[robot].samples;
   if (!samples.empty() && t <= samples.back().t) return;
-  samples.push_back({t, joints});
+  samples.push_back({t, joints, tools});
   double newest = t;
   for (const Track& track : tracks_) {
     if (!track.samples.empty()) newest = std::max(newest, track.samples.back().t);
@@ -65,24 +65,31 @@ void ClearanceObserver::place_at(double t) {
     if (track.samples.empty() || track.samples.front().t > t) continue;
     const Sample& before = track.samples.front();
     model::Joints q = before.q;
+    model::ToolSet tools = before.tools;
     if (track.samples.size() >= 2) {
       const Sample& after = track.samples[1];
+      if (t > before.t) tools = tools | after.tools;
       q += (t - before.t) / (after.t - before.t) * (after.q - before.q);
     } else if (t - before.t > patience_) {
       continue;
     }
-    place(i, q);
+    place(i, q, tools);
   }
 }
 
-void ClearanceObserver::place(model::RobotIndex robot, const model::Joints& q) {
+void ClearanceObserver::place(model::RobotIndex robot, const model::Joints& q, model::ToolSet tools) {
   Track& track = tracks_[robot];
   track.placed = true;
-  if (track.bodies.empty()) {
-    model::place_capsules(cell_.robots[robot].model, cell_.robots[robot].X_WB, q, track.bodies);
+  if (!track.body || track.body->tools != tools) {
+    track.body = &held_.of(robot, tools);
+    model::place_capsules(track.body->model, track.body->X_WB, q, track.bodies);
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      if (pairs_[k].a == robot || pairs_[k].b == robot) states_[k].current = false;
+    }
+    fixtures_.forget(robot);
   } else if (track.q != q) {
     const std::vector<model::Capsule> before = track.bodies;
-    model::place_capsules(cell_.robots[robot].model, cell_.robots[robot].X_WB, q, track.bodies);
+    model::place_capsules(track.body->model, track.body->X_WB, q, track.bodies);
     double farthest = 0;  // no point of an axis moves farther than one of its ends
     for (std::size_t k = 0; k < before.size(); ++k) {
       farthest = std::max({farthest, (track.bodies[k].a - before[k].a).norm(), (track.bodies[k].b - before[k].b).norm()});
@@ -108,7 +115,7 @@ void ClearanceObserver::measure(double t) {
   }
   for (model::RobotIndex i = 0; i < tracks_.size(); ++i) {
     const Track& track = tracks_[i];
-    if (track.placed && fixtures_.measure(i, cell_.robots[i].model, track.bodies, track.travelled, t, step_)) any_contact = true;
+    if (track.placed && fixtures_.measure(i, track.body->model, track.bodies, track.travelled, t, step_)) any_contact = true;
   }
   if (any_contact) below_zero_ += step_;
 }
@@ -118,12 +125,12 @@ bool ClearanceObserver::measure_pair(double t, PairClearance& pair, PairState& s
   const Track& a = tracks_[pair.a];
   const Track& b = tracks_[pair.b];
   const auto irrelevant = [&](double lower_bound) { return lower_bound > 0 && lower_bound > pair.least; };
-  if (state.seen) {
+  if (state.current) {
     const double moved = a.travelled - state.travelled_a + b.travelled - state.travelled_b;
     if (moved == 0) return state.touching;
     if (irrelevant(state.clearance - moved)) return false;
   }
-  state.seen = true;
+  state.seen = state.current = true;
   state.travelled_a = a.travelled;
   state.travelled_b = b.travelled;
   state.clearance = std::numeric_limits<double>::infinity();
@@ -144,8 +151,8 @@ bool ClearanceObserver::measure_pair(double t, PairClearance& pair, PairState& s
       if (d < pair.least) {
         pair.least = d;
         pair.at = t;
-        pair.link_a = cell_.robots[pair.a].model.capsules[i].name;
-        pair.link_b = cell_.robots[pair.b].model.capsules[j].name;
+        pair.link_a = a.body->model.capsules[i].name;
+        pair.link_b = b.body->model.capsules[j].name;
       }
     }
   }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/model/cell.hpp"
+#include "common/model/bodies.hpp"
 #include "monitor/fixture_observer.hpp"
 
 namespace interlace::monitor {
@@ -29,8 +29,9 @@ class ClearanceObserver {
   /// Measures every `step` [s]. A robot silent for longer than `patience` [s] is left out until it is heard again. `cell` must outlive it.
   ClearanceObserver(const model::Cell& cell, double step, double patience);
 
-  /// Robot stands or passes at `joints` [rad] at `t` [s]; older news than the last of that robot are ignored.
-  void on_posture(model::RobotIndex robot, double t, const model::Joints& joints);
+  /// Robot stands or passes at `joints` [rad] at `t` [s] with `tools` in its hand; older news than the last of that robot are ignored.
+  /// Between two postures it is taken to hold what it holds at either.
+  void on_posture(model::RobotIndex robot, double t, const model::Joints& joints, model::ToolSet tools = {});
 
   /// Least clearance of all pairs so far; empty until two robots were seen at the same time.
   [[nodiscard]] std::optional<PairClearance> least() const;
@@ -46,8 +47,10 @@ class ClearanceObserver {
   struct Sample {
     double t;
     model::Joints q;
+    model::ToolSet tools;
   };
   struct Track {
+    const model::Robot* body = nullptr;  // with what it holds
     std::deque<Sample> samples;
     std::vector<model::Capsule> bodies;
     bool placed = false;   // bodies are where the robot is
@@ -56,6 +59,7 @@ class ClearanceObserver {
   };
   struct PairState {
     bool seen = false;
+    bool current = false;  // measured with what both hold now
     bool touching = false;
     // When last measured: a lower bound of the clearance, and how far both had travelled [m].
     double clearance = 0;
@@ -63,11 +67,11 @@ class ClearanceObserver {
   };
   void examine_up_to(double newest);
   void place_at(double t);
-  void place(model::RobotIndex robot, const model::Joints& q);
+  void place(model::RobotIndex robot, const model::Joints& q, model::ToolSet tools);
   bool measure_pair(double t, PairClearance& pair, PairState& state);
   void measure(double t);
 
-  const model::Cell& cell_;
+  model::Bodies held_;
   double step_;
   double patience_;
   std::vector<Track> tracks_;

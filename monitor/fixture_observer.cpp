@@ -36,16 +36,21 @@ bool FixtureObserver::measure(model::RobotIndex robot, const model::RobotModel& 
   return any;
 }
 
+void FixtureObserver::forget(model::RobotIndex robot) {
+  const std::size_t count = cell_.fixtures.size();
+  for (std::size_t k = robot * count; k < (robot + 1) * count; ++k) states_[k].current = false;
+}
+
 /// Whether the pair touches.
 bool FixtureObserver::measure(FixtureClearance& pair, State& state, const model::RobotModel& model,
                               const std::vector<model::Capsule>& bodies, double travelled, double t) {
   const auto irrelevant = [&](double lower_bound) { return lower_bound > 0 && lower_bound > pair.least; };
-  if (state.bodies == bodies.size()) {
+  if (state.current) {
     const double moved = travelled - state.travelled;
     if (moved == 0) return state.touching;
     if (irrelevant(state.clearance - moved)) return false;
   }
-  state.bodies = bodies.size();
+  state.current = true;
   state.travelled = travelled;
   state.clearance = std::numeric_limits<double>::infinity();
   const model::Fixture& fixture = cell_.fixtures[pair.fixture];

@@ -30,6 +30,9 @@ class FixtureObserver {
   bool measure(model::RobotIndex robot, const model::RobotModel& model, const std::vector<model::Capsule>& bodies, double travelled,
                double t, double step);
 
+  /// `robot` holds something else: what was measured of it says nothing any more.
+  void forget(model::RobotIndex robot);
+
   /// Robots in the order of the cell, for each of them the fixtures.
   [[nodiscard]] const std::vector<FixtureClearance>& pairs() const { return pairs_; }
   /// The one with the least clearance; null when none was measured.
@@ -40,9 +43,9 @@ class FixtureObserver {
 
  private:
   struct State {
-    std::size_t bodies = 0;  // measured; another number: the robot holds something else
-    double clearance = 0;    // lower bound then [m]
-    double travelled = 0;    // then [m]
+    bool current = false;  // what follows was measured with what the robot holds now
+    double clearance = 0;  // lower bound then [m]
+    double travelled = 0;  // then [m]
     bool touching = false;
   };
   bool measure(FixtureClearance& pair, State& state, const model::RobotModel& model, const std::vector<model::Capsule>& bodies,

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "common/model/ids.hpp"
 #include "common/model/pose.hpp"
 #include "robot_proxy/local_time.hpp"
 
@@ -49,6 +51,7 @@ struct ControllerState {
   bool ready = false;  ///< would take a motion if it were standing: on, in automatic, no fault
   std::string fault;   ///< why not ready, for people; empty when ready
   MotionProgress motion;
+  std::vector<model::ToolName> holds;  ///< all that may be in the robot's hand; a controller that cannot tell lists what could be
 };
 
 }  // namespace interlace::proxy

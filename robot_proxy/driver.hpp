@@ -50,6 +50,8 @@ class Driver {
   /// Commands one PTP motion from where the robot stands and returns as soon as the controller took it. `number` comes back in
   /// `ControllerState::motion`; from the return on, `observe` speaks of this number. An error means that nothing will move.
   /// The controller begins within [earliest_start, latest_start] of the call. It says `finished` once it stands.
+  /// A change of tools in the request is the controller's to make: one on start is over before the first movement, one on completion
+  /// before it says `finished`. `observe` shows in `holds` what was held and what will be until it is surely over.
   [[nodiscard]] virtual DriverResult execute(const model::MotionRequest& request, MotionNumber number) = 0;
 
   /// Brings a running motion to rest along its path as fast as the controller sees fit; the motion ends as `failed`. Standing already is

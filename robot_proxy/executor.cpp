@@ -141,6 +141,11 @@ std::optional<std::string> Executor::why_not(const Dispatch& dispatch, const Mom
     return "joint " + std::to_string(joint + 1) + " stands " + std::to_string(off) + " rad from where the motion was planned to begin; " +
            std::to_string(options_.from_tolerance) + " are allowed";
   }
+  for (const model::ToolName& tool : seen_->holds) {
+    if (std::find(dispatch.holds.begin(), dispatch.holds.end(), tool) == dispatch.holds.end()) {
+      return "the robot may hold '" + tool.str() + "', the motion was planned without it";
+    }
+  }
   const LocalTime start = std::max(now.local, start_time(dispatch, *now.clock));
   const Instant movement = later(later(now.clock->to_planner(start), now.clock->uncertainty), capabilities_.latest_start);
   if (movement > dispatch.latest) return "could begin " + text_of(movement - dispatch.latest) + " after the end of its window";
@@ -230,7 +235,10 @@ ExecutionReported Executor::report(const model::CommandId& id, std::uint32_t att
   r.robot = robot_;
   r.attempt = attempt;
   r.state = state;
-  if (seen_) r.joints = seen_->joints;
+  if (seen_) {
+    r.joints = seen_->joints;
+    r.holds = seen_->holds;
+  }
   r.text = std::move(text);
   set_time(r, now.local, Duration{0}, now);
   return r;

@@ -59,7 +59,8 @@ struct Actions {
 /// * A motion is started only when this is certainly inside its window: not before estimate − uncertainty ≥ earliest, and refused when
 ///   estimate + uncertainty + the controller's latest start latency would be beyond latest. Both ends belong to the window.
 /// * Refused too: controller not ready or not heard from, no estimate of planner time, a move the controller does not know, a posture
-///   other than `from`. All of it is checked when the dispatch comes and again when it starts.
+///   other than `from`, a tool in the hand that the motion was planned without. All of it is checked when the dispatch comes and again when
+///   it starts.
 /// * Messages may be repeated, lost and reordered. The same id and attempt is answered again with the last report and started once. An id
 ///   that was once started is never started again, whatever the attempt. Older attempts are ignored; a newer one replaces a waiting one.
 ///   A withdrawal that overtakes its dispatch is remembered and withdraws it when it comes. After the start a withdrawal is answered with

@@ -126,6 +126,7 @@ class Campaign {
       check.step(t, joints);
       run.virtual_time = t;
     };
+    options.on_tools = [&](model::RobotIndex robot, model::ToolSet tools) { check.hold(robot, tools); };
     options.on_map_builds = [&](const std::vector<double>& seconds) { result.map_builds = seconds; };
     const app::RunReport report = run_virtual(cell, *program, options);
     run.verdict = judge.verdict(report.commands);

@@ -53,9 +53,9 @@ std::array<double, model::kJoints> levers(const model::RobotModel& m) {
 
 }  // namespace
 
-TraceCheck::TraceCheck(const model::Cell& cell) : cell_(cell), arms_(cell.robots.size()), fixtures_(cell.fixtures) {
+TraceCheck::TraceCheck(const model::Cell& cell) : cell_(cell), held_(cell), arms_(cell.robots.size()), fixtures_(cell.fixtures) {
   for (model::RobotIndex i = 0; i < arms_.size(); ++i) {
-    arms_[i].lever = levers(cell.robots[i].model);
+    hold(i, {});
     for (model::RobotIndex j = i + 1; j < arms_.size(); ++j) {
       Pair pair;
       pair.a = i;
@@ -63,6 +63,19 @@ TraceCheck::TraceCheck(const model::Cell& cell) : cell_(cell), arms_(cell.robots
       pairs_.push_back(pair);
     }
     for (std::size_t f = 0; f < cell.fixtures.size(); ++f) places_.push_back({i, f});
+  }
+}
+
+void TraceCheck::hold(model::RobotIndex robot, model::ToolSet tools) {
+  Arm& arm = arms_[robot];
+  arm.body = &held_.of(robot, tools);
+  arm.lever = levers(arm.body->model);
+  arm.placed = false;
+  for (Pair& pair : pairs_) {
+    if (pair.a == robot || pair.b == robot) pair.travelled_a = -1;  // to be measured anew
+  }
+  for (Place& place : places_) {
+    if (place.robot == robot) place.travelled = -1;
   }
 }
 
@@ -105,7 +118,7 @@ void TraceCheck::step(double t, const std::vector<model::Joints>& joints) {
 
 const std::vector<Capsule>& TraceCheck::bodies(model::RobotIndex robot) {
   Arm& arm = arms_[robot];
-  if (!arm.placed) model::place_capsules(cell_.robots[robot].model, cell_.robots[robot].X_WB, arm.q, arm.bodies);
+  if (!arm.placed) model::place_capsules(arm.body->model, arm.body->X_WB, arm.q, arm.bodies);
   arm.placed = true;
   return arm.bodies;
 }
@@ -133,13 +146,13 @@ void TraceCheck::measure(double t, Pair& pair) {
   if (least <= 0 && !pair.touching) ++collisions_;
   pair.touching = least <= 0;
   if (least >= least_.clearance) return;
-  least_ = {least, t, pair.a, pair.b, cell_.robots[pair.a].model.capsules[least_i].name, cell_.robots[pair.b].model.capsules[least_j].name};
+  least_ = {least, t, pair.a, pair.b, arms_[pair.a].body->model.capsules[least_i].name, arms_[pair.b].body->model.capsules[least_j].name};
 }
 
 void TraceCheck::measure(double t, Place& place) {
   constexpr double kBeyond = 0.02;  // [m] that a lower bound must be beyond what matters: more often exact, and less often measured
   ++measured_;
-  const auto& capsules = cell_.robots[place.robot].model.capsules;
+  const auto& capsules = arms_[place.robot].body->model.capsules;
   const auto& own = bodies(place.robot);
   const double enough = std::max(place.least, 0.0) + kBeyond;
   double least = std::numeric_limits<double>::infinity();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/model/cell.hpp"
+#include "common/model/bodies.hpp"
 #include "simulator/fixture_check.hpp"
 
 namespace interlace::sim {
@@ -30,6 +30,9 @@ class TraceCheck {
  public:
   explicit TraceCheck(const model::Cell& cell);
 
+  /// From the next step on `robot` holds `tools`; nothing before the first call, which a trace cannot tell.
+  void hold(model::RobotIndex robot, model::ToolSet tools);
+
   /// All robots at `joints` [rad], in the order of the cell, at `t` [s].
   void step(double t, const std::vector<model::Joints>& joints);
 
@@ -41,6 +44,7 @@ class TraceCheck {
 
  private:
   struct Arm {
+    const model::Robot* body = nullptr;          // with what it holds
     std::array<double, model::kJoints> lever{};  // longest distance of a body's point from each joint's axis [m]
     model::Joints q;
     double travelled = 0;  // bound of the way of any point so far [m]
@@ -67,6 +71,7 @@ class TraceCheck {
   const std::vector<model::Capsule>& bodies(model::RobotIndex robot);
 
   const model::Cell& cell_;
+  model::Bodies held_;
   std::vector<Arm> arms_;
   std::vector<Pair> pairs_;
   FixtureCheck fixtures_;

@@ -83,7 +83,8 @@ class World {
         collector_(Instant{}),
         releases_(releases_of(program)),
         total_(releases_.size()),
-        postures_(cell_->robots.size()) {
+        postures_(cell_->robots.size()),
+        held_(cell_->robots.size()) {
     planner_.maps().on_build(options.on_map);
     for (const model::Robot& robot : cell_->robots) robots_.push_back(std::make_unique<VirtualRobot>(robot, options.seed + robots_.size()));
   }
@@ -172,6 +173,7 @@ class World {
     posture.robot = r.robot.name;
     posture.at = now_;
     posture.joints = seen.joints;
+    posture.holds = seen.holds;
     posture.X_WT = seen.X_WT;
     posture.moving = seen.moving;
     posture.ready = seen.ready;
@@ -228,15 +230,23 @@ class World {
     }
   }
 
+  void look_for_watchers(model::RobotIndex i, LocalTime at) {
+    postures_[i] = robots_[i]->controller.joints(at);
+    if (held_[i] && cell_->tools.empty()) return;
+    const model::ToolSet held = cell_->set_of(robots_[i]->controller.holds(at));
+    if (held_[i] != held && options_.on_tools) options_.on_tools(i, held);
+    held_[i] = held;
+  }
+
   /// Feeds trace and observer with what happens up to `until`.
   void watch_until(Instant until) {
     const double end = model::to_seconds(until);
     for (; checked_ * options_.check_period < end; ++checked_) {
       const double t = checked_ * options_.check_period;
-      for (std::size_t i = 0; i < robots_.size(); ++i) postures_[i] = robots_[i]->controller.joints(local(model::at_seconds(t)));
+      for (std::size_t i = 0; i < robots_.size(); ++i) look_for_watchers(i, local(model::at_seconds(t)));
       if (options_.on_postures) options_.on_postures(t, postures_);
       if (!options_.observe) continue;
-      for (std::size_t i = 0; i < robots_.size(); ++i) observer_.on_posture(i, t, postures_[i]);
+      for (std::size_t i = 0; i < robots_.size(); ++i) observer_.on_posture(i, t, postures_[i], held_[i].value_or(model::ToolSet{}));
     }
     if (!options_.trace) return;
     for (; traced_ * options_.trace_period < end; ++traced_) {
@@ -257,7 +267,8 @@ class World {
   std::map<std::size_t, std::string> ids_;  // command each robot was last started with
   std::deque<Release> releases_;
   std::size_t total_;
-  std::vector<model::Joints> postures_;  // at the last check
+  std::vector<model::Joints> postures_;              // at the last check
+  std::vector<std::optional<model::ToolSet>> held_;  // likewise
   std::deque<Message> mail_;
   std::vector<double> decision_times_;
   Instant now_{};

@@ -105,6 +105,11 @@ Command send(CLI::App& parent) {
   command->add_option("--angle", a->angle, "of angles: deg or rad")->check(CLI::IsMember({"deg", "rad"}))->capture_default_str();
   command->add_option("--velocity", a->motion.velocity, "of the TCP per second; default: the robot's limit");
   command->add_option("--acceleration", a->motion.acceleration, "of the TCP per second²; default: the robot's limit");
+  command->add_option("--attach", a->motion.attach, "take this tool or payload of the cell file; from then on it is part of the robot");
+  command->add_option("--detach", a->motion.detach, "leave this one where the robot stands");
+  command->add_option("--when", a->motion.when, "of --attach and --detach: before the robot starts, or once it has arrived")
+      ->check(CLI::IsMember({"start", "completion"}))
+      ->capture_default_str();
   command->add_option("--priority", a->priority, "higher goes first")->check(CLI::Range(-1000000, 1000000));
   command->add_option("--id", a->id, "of the command; sent again, it is answered again and not executed again. Default: a new one");
   command->add_flag("--wait,!--no-wait", a->wait, "wait for the end (default), or only for the planner's first answer");
@@ -113,7 +118,7 @@ Command send(CLI::App& parent) {
       ->capture_default_str();
   command->footer(
       "Example:\n  interlace send r1 linear 300 250 330 0 0 0 --cell exp-4-2\n  interlace send r1 joint 0 45 90 0 45 0 --cell exp-4-2 "
-      "--no-wait");
+      "--no-wait\n  interlace send r1 linear 400 150 200 0 0 0 --cell tools-2 --attach long");
   return {command, [a](Interrupts& interrupts) { return execute(*a, interrupts); }};
 }
 

@@ -22,6 +22,8 @@ static_assert(wire::REASON_BLOCKED == static_cast<int>(model::Reason::blocked));
 static_assert(wire::REASON_UNKNOWN_ID == static_cast<int>(model::Reason::unknown_id));
 static_assert(wire::REASON_DEADLOCK == static_cast<int>(model::Reason::deadlock));
 static_assert(wire::REASON_FIXTURE_COLLISION == static_cast<int>(model::Reason::fixture_collision));
+static_assert(wire::REASON_TOOL == static_cast<int>(model::Reason::tool));
+static_assert(wire::AT_COMPLETION == static_cast<int>(model::ToolTime::completion));
 static_assert(wire::WAY_PLUS_Z == static_cast<int>(model::EscapeWay::plus_z));
 static_assert(wire::WAY_HOME == static_cast<int>(model::EscapeWay::home));
 static_assert(wire::EXECUTION_FAILED == static_cast<int>(model::ExecutionState::failed));
@@ -84,7 +86,22 @@ model::MotionRequest read_motion(Validator& v, const wire::Goal& goal, bool line
   motion.velocity = if_present<double>(goal.has_velocity(), [&] { return v.number("motion.velocity", goal.velocity(), kMaxRate); });
   motion.acceleration =
       if_present<double>(goal.has_acceleration(), [&] { return v.number("motion.acceleration", goal.acceleration(), kMaxRate); });
+  model::ToolChange change;
+  change.attach = model::ToolName{v.name_or_empty("motion.attach", goal.attach().to_string())};
+  change.detach = model::ToolName{v.name_or_empty("motion.detach", goal.detach().to_string())};
+  if (change.attach.empty() && change.detach.empty()) return motion;
+  change.when = v.known("motion.tool_time", goal.tool_time(), model::ToolTime::completion);
+  motion.tools = change;
   return motion;
+}
+
+std::vector<model::ToolName> read_tools(Validator& v, const char* field, const wire::Tools& found) {
+  v.require(found.size() <= kMaxTools, [&] { return std::string{field} + ": " + std::to_string(found.size()) + " are too many"; });
+  std::vector<model::ToolName> tools;
+  if (!v.ok()) return tools;
+  tools.reserve(found.size());
+  for (const auto& name : found) tools.emplace_back(v.name(field, name.to_string()));
+  return tools;
 }
 
 std::vector<model::Conflict> read_conflicts(Validator& v, const std::vector<wire::Conflict>& found) {
@@ -167,7 +184,19 @@ wire::Goal to_goal(const model::MotionRequest& motion) {
   goal.velocity(motion.velocity.value_or(0));
   goal.has_acceleration(motion.acceleration.has_value());
   goal.acceleration(motion.acceleration.value_or(0));
+  if (motion.tools) {
+    goal.attach(motion.tools->attach.str());
+    goal.detach(motion.tools->detach.str());
+    goal.tool_time(same_value<wire::ToolTime>(motion.tools->when));
+  }
   return goal;
+}
+
+wire::Tools to_tools(const std::vector<model::ToolName>& tools) {
+  wire::Tools sent;
+  sent.reserve(tools.size());
+  for (const model::ToolName& tool : tools) sent.emplace_back(tool.str());
+  return sent;
 }
 
 std::vector<wire::Conflict> to_conflicts(const std::vector<model::Conflict>& conflicts) {
@@ -229,6 +258,7 @@ struct FillDispatch {
     dispatch.motion_kind(is_linear(d.motion) ? wire::MOTION_LINEAR : wire::MOTION_JOINT);
     dispatch.motion(to_goal(d.motion));
     dispatch.from(to_joints(d.from));
+    dispatch.holds(to_tools(d.holds));
     dispatch.earliest(nanoseconds(d.earliest));
     dispatch.latest(nanoseconds(d.latest));
     dispatch.duration(d.duration);
@@ -276,7 +306,7 @@ Converted<StatusMessage> from_wire(const wire::CommandStatus& w, const std::stri
   status.escape = w.escape();
   status.serves = model::CommandId{v.name_or_empty("serves", w.serves().to_string())};
   status.state = v.known("state", w.state(), model::CommandState::failed);
-  status.reason = v.known("reason", w.reason(), model::Reason::fixture_collision);
+  status.reason = v.known("reason", w.reason(), model::Reason::tool);
   status.text = v.text("text", w.text().to_string(), kMaxText);
   status.submitted = v.stamp("submitted", w.submitted());
   status.start = if_present<model::Instant>(w.has_start(), [&] { return v.stamp("start", w.start()); });
@@ -304,6 +334,7 @@ Converted<DispatchMessage> from_wire(const wire::Dispatch& w, const std::string&
       d.attempt = w.attempt();
       d.motion = read_motion(v, w.motion(), v.known("motion_kind", w.motion_kind(), wire::MOTION_JOINT) == wire::MOTION_LINEAR);
       d.from = read_joints(v, "from", w.from());
+      d.holds = read_tools(v, "holds", w.holds());
       d.earliest = v.stamp("earliest", w.earliest());
       d.latest = v.stamp("latest", w.latest());
       v.require(d.earliest <= d.latest, [] { return std::string{"latest: before earliest, the start window is empty"}; });
@@ -335,6 +366,7 @@ Converted<ExecutionMessage> from_wire(const wire::Execution& w, const std::strin
   report.uncertainty = v.non_negative("uncertainty", w.uncertainty(), kMaxSeconds);
   report.joints = read_joints(v, "joints", w.joints());
   report.text = v.text("text", w.text().to_string(), kMaxText);
+  report.holds = read_tools(v, "holds", w.holds());
   return result(v, std::move(message));
 }
 
@@ -356,6 +388,7 @@ Converted<PostureMessage> from_wire(const wire::Posture& w, const std::string& o
   posture.moving = w.moving();
   posture.ready = w.ready();
   posture.motion = model::CommandId{v.name_or_empty("motion", w.motion().to_string())};
+  posture.holds = read_tools(v, "holds", w.holds());
   return result(v, std::move(message));
 }
 
@@ -376,12 +409,12 @@ Converted<model::PlannerState> from_wire(const wire::PlannerState& w, const std:
   state.refused_samples = w.refused_samples();
   for (const wire::RobotStatus& r : w.robots()) {
     if (!v.ok()) break;
-    state.robots.push_back({model::RobotName{v.name("robots.name", r.name().to_string())},
-                            v.known("robots.mode", r.mode(), model::RobotMode::moving), r.queued(),
-                            model::CommandId{v.name_or_empty("robots.current", r.current().to_string())},
-                            v.known("robots.reason", r.reason(), model::Reason::fixture_collision),
-                            v.text("robots.text", r.text().to_string(), kMaxText), read_conflicts(v, r.conflicts()),
-                            read_refusals(v, r.refusals()), model::CommandId{v.name_or_empty("robots.serves", r.serves().to_string())}});
+    state.robots.push_back(
+        {model::RobotName{v.name("robots.name", r.name().to_string())}, v.known("robots.mode", r.mode(), model::RobotMode::moving),
+         r.queued(), model::CommandId{v.name_or_empty("robots.current", r.current().to_string())},
+         v.known("robots.reason", r.reason(), model::Reason::tool), v.text("robots.text", r.text().to_string(), kMaxText),
+         read_conflicts(v, r.conflicts()), read_refusals(v, r.refusals()),
+         model::CommandId{v.name_or_empty("robots.serves", r.serves().to_string())}, read_tools(v, "robots.holds", r.holds())});
   }
   return result(v, std::move(state));
 }
@@ -440,6 +473,7 @@ wire::Execution to_wire(const ExecutionMessage& message) {
   w.uncertainty(report.uncertainty);
   w.joints(to_joints(report.joints));
   w.text(tidy(report.text, kMaxText));
+  w.holds(to_tools(report.holds));
   return w;
 }
 
@@ -460,6 +494,7 @@ wire::Posture to_wire(const PostureMessage& message) {
   w.moving(posture.moving);
   w.ready(posture.ready);
   w.motion(posture.motion.str());
+  w.holds(to_tools(posture.holds));
   return w;
 }
 
@@ -487,6 +522,7 @@ wire::PlannerState to_wire(const model::PlannerState& state) {
     robot.text(tidy(r.text, kMaxText));
     robot.conflicts(to_conflicts(r.conflicts));
     robot.refusals(to_refusals(r.refusals));
+    robot.holds(to_tools(r.holds));
     w.robots().push_back(std::move(robot));
   }
   return w;

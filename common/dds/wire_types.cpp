@@ -44,6 +44,19 @@ bool evidence_is_bounded(Cdr& cdr) {
   return true;
 }
 
+/// Reads over the names of tools.
+bool tools_are_bounded(Cdr& cdr) {
+  std::uint32_t tools = 0;
+  if (!length_within(cdr, kMaxTools, tools)) return false;
+  for (std::uint32_t t = 0; t < tools; ++t) skip<std::string>(cdr);
+  return true;
+}
+
+/// `count` numbers.
+void skip_numbers(Cdr& cdr, int count) {
+  for (int i = 0; i < count; ++i) skip<double>(cdr);
+}
+
 // The generated reader makes room for as many elements as the bytes claim, before it looks for them: four forged bytes would take all
 // memory. So the claims are checked first, in the layout of the IDL. Messages without sequences have nothing to check.
 template <typename Wire>
@@ -65,9 +78,34 @@ bool lengths_are_bounded<::interlace::PlannerState>(Cdr& cdr) {
   if (!length_within(cdr, kMaxRobots, robots)) return false;
   for (std::uint32_t r = 0; r < robots; ++r) {
     skip_all<std::string, std::uint32_t, std::uint32_t, std::string, std::string, std::uint32_t, std::string>(cdr);
-    if (!evidence_is_bounded(cdr)) return false;
+    if (!evidence_is_bounded(cdr) || !tools_are_bounded(cdr)) return false;
   }
   return true;
+}
+
+template <>
+bool lengths_are_bounded<::interlace::Dispatch>(Cdr& cdr) {
+  skip_all<std::uint32_t, std::uint64_t, std::uint64_t, std::uint32_t, std::string, std::string, std::uint32_t, std::uint32_t>(cdr);
+  skip_numbers(cdr, 3 + 4 + 6);  // from here on the goal
+  skip_all<bool, double, bool, double, std::string, std::string, std::uint32_t>(cdr);
+  skip_numbers(cdr, 6);
+  return tools_are_bounded(cdr);
+}
+
+template <>
+bool lengths_are_bounded<::interlace::Execution>(Cdr& cdr) {
+  skip_all<std::uint32_t, std::uint64_t, std::uint64_t, std::string, std::string, std::uint32_t, std::uint32_t, std::int64_t, double>(cdr);
+  skip_numbers(cdr, 6);
+  skip<std::string>(cdr);
+  return tools_are_bounded(cdr);
+}
+
+template <>
+bool lengths_are_bounded<::interlace::Posture>(Cdr& cdr) {
+  skip_all<std::uint32_t, std::string, std::uint64_t, std::uint64_t, std::uint64_t, std::int64_t, std::int64_t, double>(cdr);
+  skip_numbers(cdr, 6 + 3 + 4);
+  skip_all<bool, bool, std::string>(cdr);
+  return tools_are_bounded(cdr);
 }
 
 /// The generated type with its doors closed: no exception leaves it, because it also runs in threads that are not ours.

@@ -7,6 +7,7 @@
 #include "common/model/fixture.hpp"
 #include "common/model/ids.hpp"
 #include "common/model/robot_model.hpp"
+#include "common/model/tools.hpp"
 
 namespace interlace::model {
 
@@ -37,6 +38,8 @@ struct Robot {
   Joints home = Joints::Zero();
   TcpLimits tcp;
   ControllerTraits controller;
+  std::vector<ToolName> holds;  ///< what is in its hand when the cell is switched on
+  ToolSet tools;                ///< whose capsules `model` has as well: none in a cell, see Bodies
 };
 
 /// Axis-aligned box in the world frame [m].
@@ -61,6 +64,7 @@ struct Cell {
   std::string name;
   std::vector<Robot> robots;
   std::vector<Fixture> fixtures;
+  std::vector<Tool> tools;  ///< at most kMaxTools, names unique
   PlanningOptions planning;
 
   /// Index of the robot called `name`, if there is one.
@@ -69,6 +73,29 @@ struct Cell {
       if (robots[i].name == robot) return i;
     }
     return std::nullopt;
+  }
+
+  /// The tool called `name` as a set; empty optional when the cell does not know it.
+  [[nodiscard]] std::optional<ToolSet> find(const ToolName& tool) const {
+    for (std::size_t i = 0; i < tools.size(); ++i) {
+      if (tools[i].name == tool) return ToolSet::of(i);
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] ToolSet all_tools() const { return ToolSet::first(tools.size()); }
+
+  /// The set of `names`. A name the cell does not know could be anything, so it stands for all tools.
+  [[nodiscard]] ToolSet set_of(const std::vector<ToolName>& names) const {
+    ToolSet set;
+    for (const ToolName& tool : names) set = set | find(tool).value_or(all_tools());
+    return set;
+  }
+  [[nodiscard]] std::vector<ToolName> names_of(ToolSet set) const {
+    std::vector<ToolName> names;
+    for (std::size_t i = 0; i < tools.size(); ++i) {
+      if (set.has(i)) names.push_back(tools[i].name);
+    }
+    return names;
   }
 };
 

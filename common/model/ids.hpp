@@ -34,6 +34,7 @@ class StrongName {
 
 using CommandId = StrongName<struct CommandIdTag>;  ///< chosen by the client, unique in a cell; escapes get one from the planner
 using RobotName = StrongName<struct RobotNameTag>;
+using ToolName = StrongName<struct ToolNameTag>;  ///< of a tool or payload, unique in a cell
 
 /// Place of a robot in its cell: 0 … n-1, in the order of the cell file.
 using RobotIndex = std::size_t;

@@ -38,6 +38,7 @@ const char* to_string(Reason r) {
     case Reason::escape: return "escape";
     case Reason::deadlock: return "deadlock";
     case Reason::fixture_collision: return "fixture_collision";
+    case Reason::tool: return "tool";
   }
   return "?";
 }

@@ -21,11 +21,22 @@ struct JointTarget {
 };
 using Target = std::variant<LinearTarget, JointTarget>;
 
-/// A PTP request: where to, and optionally slower than the robot's limits.
+/// When a robot takes or leaves a tool: standing at the start of a motion, before its first movement, or standing at its end.
+enum class ToolTime : std::uint8_t { start, completion };
+
+/// A command may have its robot take a tool, leave one, or both at the same time.
+struct ToolChange {
+  ToolName attach;  ///< empty: none
+  ToolName detach;  ///< empty: none
+  ToolTime when = ToolTime::completion;
+};
+
+/// A PTP request: where to, and optionally slower than the robot's limits; and what the hand does there.
 struct MotionRequest {
   Target target;
-  std::optional<double> velocity;      ///< of the TCP [m/s]; not above the robot's
-  std::optional<double> acceleration;  ///< of the TCP [m/s²]; not above the robot's
+  std::optional<double> velocity;                  ///< of the TCP [m/s]; not above the robot's
+  std::optional<double> acceleration;              ///< of the TCP [m/s²]; not above the robot's
+  std::optional<ToolChange> tools = std::nullopt;  ///< taken or left
 };
 
 /// Client → planner. Submitting an id twice is answered twice and executed once.
@@ -77,11 +88,12 @@ enum class Reason : std::uint8_t {
   not_ready,         ///< the robot itself is not heard from or not ready
   refused_by_proxy,  ///< start was missed or refused; planned again
   controller_fault,
-  on_request,        ///< cancelled or stopped by a client
-  unknown_id,        ///< no such command
-  escape,            ///< out of the way of the command it serves; or of that command: others are sent out of its way first
-  deadlock,          ///< nobody in the way will move by itself and no escape was found: a person is asked for help
-  fixture_collision  ///< a fixture of the cell is in the way
+  on_request,         ///< cancelled or stopped by a client
+  unknown_id,         ///< no such command
+  escape,             ///< out of the way of the command it serves; or of that command: others are sent out of its way first
+  deadlock,           ///< nobody in the way will move by itself and no escape was found: a person is asked for help
+  fixture_collision,  ///< a fixture of the cell is in the way
+  tool                ///< a tool that the cell does not know, to be taken although it is held, or to be left although it is not
 };
 [[nodiscard]] const char* to_string(Reason r);
 
@@ -131,6 +143,7 @@ struct Dispatch {
   std::uint32_t attempt = 0;  ///< counts new plans of the same command; a proxy answers with it
   MotionRequest motion;
   Joints from = Joints::Zero();  ///< posture the motion was planned from [rad]
+  std::vector<ToolName> holds;   ///< what it was planned with in the robot's hand, before any change
   Instant earliest{};
   Instant latest{};
   double duration = 0;  ///< predicted [s]
@@ -154,7 +167,8 @@ struct ExecutionReported {
   Instant at{};            ///< planner time of the event
   double uncertainty = 0;  ///< of `at` [s]
   Joints joints = Joints::Zero();
-  std::string text;  ///< why, when refused or failed
+  std::string text;             ///< why, when refused or failed
+  std::vector<ToolName> holds;  ///< all that the robot may hold at that time
 };
 
 /// Proxy → everyone, 100 Hz: where the robot is.
@@ -165,8 +179,9 @@ struct PostureReported {
   Joints joints = Joints::Zero();
   Pose X_WT = Pose::Identity();
   bool moving = false;
-  bool ready = true;  ///< the controller would accept a command
-  CommandId motion;   ///< running command, empty when standing
+  bool ready = true;            ///< the controller would accept a command
+  CommandId motion;             ///< running command, empty when standing
+  std::vector<ToolName> holds;  ///< all that the robot may hold
 };
 
 enum class RobotMode : std::uint8_t { unknown, standby, commanded, moving };
@@ -182,7 +197,8 @@ struct RobotStatus {
   std::string text;
   std::vector<Conflict> conflicts;
   std::vector<EscapeRefusal> refusals;
-  CommandId serves;  ///< when `current` is an escape: the command it serves
+  CommandId serves;             ///< when `current` is an escape: the command it serves
+  std::vector<ToolName> holds;  ///< all that the robot may hold, as the planner knows it
 };
 
 /// Planner → everyone: the whole state, so that a late or deaf listener recovers.

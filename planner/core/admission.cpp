@@ -113,7 +113,7 @@ std::optional<model::MotionError> path_collision(SampledMotion& motion, const mo
   PathCheck check{motion, margin};
   if (auto found = check.against_itself()) return found;
   if (auto found = check.against(cell.fixtures)) return found;
-  const ReachableVolume reach = reachable_volume(cell.robots[robot]);
+  const ReachableVolume reach = reachable_volume(motion.robot());
   for (model::RobotIndex other = 0; other < cell.robots.size(); ++other) {
     if (other == robot || !reach.meets(base_volume(cell.robots[other]), margin)) continue;
     if (auto found = check.against(ImmovableBase{cell.robots[other]})) return found;
@@ -121,12 +121,27 @@ std::optional<model::MotionError> path_collision(SampledMotion& motion, const mo
   return std::nullopt;
 }
 
-model::Result<SampledMotionPtr, model::MotionError> admit(const model::Cell& cell, model::RobotIndex robot, const model::Joints& from,
+model::Result<SampledMotionPtr, model::MotionError> admit(const model::Cell& cell, model::RobotIndex robot,
+                                                          const model::MotionBodies& bodies, const model::Joints& from,
                                                           const model::MotionRequest& request) {
-  auto motion = model::plan_motion(cell.robots[robot], from, request);
+  auto motion = model::plan_motion(*bodies.during, from, request);
   if (!motion) return model::unexpected(motion.error());
-  auto sampled = std::make_shared<SampledMotion>(std::move(*motion), cell.planning.resolution);
-  if (auto collision = path_collision(*sampled, cell, robot, cell.planning.margin)) return model::unexpected(*collision);
+  auto sampled = std::make_shared<SampledMotion>(std::move(*motion), cell.planning.resolution, bodies);
+  const double margin = cell.planning.margin;
+  if (bodies.at_start != bodies.during) {
+    if (auto collision = path_collision(sampled->at_start(), cell, robot, margin)) {
+      collision->progress = 0;
+      collision->text += ", as the tool is changed before it starts";
+      return model::unexpected(*collision);
+    }
+  }
+  if (auto collision = path_collision(*sampled, cell, robot, margin)) return model::unexpected(*collision);
+  if (bodies.at_end != bodies.during) {
+    if (auto collision = path_collision(sampled->at_end(), cell, robot, margin)) {
+      collision->text += ", as the tool is changed there";
+      return model::unexpected(*collision);
+    }
+  }
   return sampled;
 }
 

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "common/model/cell.hpp"
@@ -27,11 +28,12 @@ class EefMap final : public Strategy {
     std::weak_ptr<SampledMotion> whole;
     SampledMotionPtr hand;
   };
-  [[nodiscard]] SampledMotionPtr hand_of(model::RobotIndex robot, const SampledMotionPtr& whole) const;
+  [[nodiscard]] const model::Robot& hand_of(const model::Robot& body) const;
+  [[nodiscard]] SampledMotionPtr hand_of(const SampledMotionPtr& whole) const;
 
-  std::vector<model::Robot> hands_;  ///< the cell's robots, of which only the hands are bodies
   double resolution_;
   std::unique_ptr<Strategy> event_;
+  mutable std::map<std::pair<model::RobotName, model::ToolSet>, std::unique_ptr<const model::Robot>> hands_;  ///< only hands are bodies
   mutable std::map<std::uint64_t, Kept> kept_;  ///< by the id of the whole motion; a memo, nothing depends on what it holds
 };
 

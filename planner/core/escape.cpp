@@ -94,9 +94,9 @@ bool EscapeSearch::step_aside_and_serve(const PlannedMotion& served) {
   for (const model::MotionRequest& home : view.home) places.emplace_back(EscapeWay::home, home);
   for (const model::MotionRequest& back : view.trail) places.emplace_back(EscapeWay::retreat, back);
   for (const auto& [way, request] : places) {
-    auto aside = admit(cell_, served.robot, view.motion()->motion().to(), request);
+    auto aside = admit(cell_, served.robot, view.body(), view.motion()->motion().to(), request);
     if (!aside || (*aside)->motion().duration() <= 0) continue;
-    auto from_there = admit(cell_, served.robot, (*aside)->motion().to(), served.request);
+    auto from_there = admit(cell_, served.robot, served.motion->bodies(), (*aside)->motion().to(), served.request);
     if (!from_there) continue;
     PlannedMotion step = served;
     step.way = way;
@@ -169,7 +169,7 @@ bool EscapeSearch::serve(PlannedMotion motion, int depth, const Attempt& then) {
   }
   const auto cannot_go = [&](RobotIndex b) {
     return robots_[b].committed() || !robots_[b].immovable.empty() ||
-           std::any_of(protected_.begin(), protected_.end(), [&](const auto& p) { return &p->robot() == &cell_.robots[b]; });
+           std::any_of(protected_.begin(), protected_.end(), [&](const auto& p) { return p->robot().name == cell_.robots[b].name; });
   };
   if (blockers.empty() || std::any_of(blockers.begin(), blockers.end(), cannot_go)) {
     for (const RobotIndex b : blockers) {
@@ -245,11 +245,11 @@ void EscapeSearch::build(RobotIndex robot, Way& way) {
   if (std::exchange(way.built, true)) return;
   const model::Joints& from = robots_[robot].motion()->motion().to();
   if (way.unit) {
-    way.full = to_reachable_goal(cell_, robot, from, *way.unit);
+    way.full = to_reachable_goal(cell_, robot, robots_[robot].body(), from, *way.unit);
     if (!way.full.motion) way.why = "it cannot go any farther that way";
     return;
   }
-  auto motion = admit(cell_, robot, from, way.request);
+  auto motion = admit(cell_, robot, robots_[robot].body(), from, way.request);
   if (!motion) {
     way.why = motion.error().text;
   } else if ((*motion)->motion().duration() > 0) {
@@ -284,7 +284,8 @@ RequestedMotion EscapeSearch::out_of_the_way(RobotIndex robot, const Way& way) {
     refuse(robot, way.way, "the goal cannot be reached");
     return {};
   }
-  if (keep_next_ && robots_[robot].next && !admit(cell_, robot, out.motion->motion().to(), *robots_[robot].next)) {
+  const EscapeView& view = robots_[robot];
+  if (keep_next_ && view.next && !admit(cell_, robot, view.next_bodies, out.motion->motion().to(), *view.next)) {
     refuse(robot, way.way, "its next command would not be possible from there");
     return {};
   }
@@ -296,7 +297,7 @@ const RequestedMotion& EscapeSearch::cut(RobotIndex robot, const Way& way, doubl
   auto [entry, fresh] = cut_.try_emplace({way.full.motion.get(), std::lround(length / kGrid)});
   if (fresh) {
     const auto request = shortened(way.full.motion->motion(), length);
-    auto motion = admit(cell_, robot, way.full.motion->motion().from(), request);
+    auto motion = admit(cell_, robot, way.full.motion->robot(), way.full.motion->motion().from(), request);
     entry->second = {request, motion ? *motion : nullptr};
   }
   return entry->second;

@@ -19,9 +19,12 @@ struct EscapeView {
   std::vector<model::MotionRequest> trail;     ///< back along the path it came, newest place first
   std::vector<model::MotionRequest> home;      ///< to its home pose, straight and, where the model allows it, by its joints
   const model::MotionRequest* next = nullptr;  ///< first command that waits for it
+  model::MotionBodies next_bodies;             ///< around that command
 
   [[nodiscard]] bool committed() const { return seen.back().committed; }
   [[nodiscard]] const SampledMotionPtr& motion() const { return seen.back().motion; }
+  /// With what it holds when that motion is over, as it would escape.
+  [[nodiscard]] const model::Robot& body() const { return *motion()->bodies().after; }
 };
 
 /// A motion with the start chosen for it.

@@ -51,8 +51,8 @@ std::array<EscapeDirection, 6> escape_directions(const Cuboid& cuboid, const Vec
   return directions;
 }
 
-RequestedMotion to_reachable_goal(const model::Cell& cell, model::RobotIndex index, const model::Joints& from, const Vector3& unit) {
-  const model::Robot& robot = cell.robots[index];
+RequestedMotion to_reachable_goal(const model::Cell& cell, model::RobotIndex index, const model::Robot& robot, const model::Joints& from,
+                                  const Vector3& unit) {
   const model::Pose X_WT = robot.X_WB * model::tcp_pose(robot.model, from);
   double length = 2 * reachable_volume(robot).radius;
   for (int i = 0; i < kTries && length >= kShortest; ++i) {
@@ -60,7 +60,7 @@ RequestedMotion to_reachable_goal(const model::Cell& cell, model::RobotIndex ind
     goal.translation() += length * unit;
     model::MotionRequest request;
     request.target = model::LinearTarget{goal};
-    auto motion = admit(cell, index, from, request);
+    auto motion = admit(cell, index, robot, from, request);
     if (motion) return {request, std::move(*motion)};
     length = std::min(length, motion.error().progress * length) - kBackFromBorder;
   }

@@ -34,11 +34,11 @@ struct RequestedMotion {
   SampledMotionPtr motion;  ///< null: impossible
 };
 
-/// Straight motion of `robot` from `from` [rad] along `unit` with its orientation kept, to the reachable goal: the border of what it can
-/// reach without touching itself or a base. Without a motion when it cannot go any way. Source: dissertation section 5.2.2 (maximum
-/// reachable goal).
-[[nodiscard]] RequestedMotion to_reachable_goal(const model::Cell& cell, model::RobotIndex robot, const model::Joints& from,
-                                                const Vector3& unit);
+/// Straight motion of `robot`, which is `body`, from `from` [rad] along `unit` with its orientation kept, to the reachable goal: the border
+/// of what it can reach without touching itself or a base. Without a motion when it cannot go any way. Source: dissertation section 5.2.2
+/// (maximum reachable goal).
+[[nodiscard]] RequestedMotion to_reachable_goal(const model::Cell& cell, model::RobotIndex robot, const model::Robot& body,
+                                                const model::Joints& from, const Vector3& unit);
 
 /// The linear request that stops after `length` [m] of the straight `motion`, orientation included.
 [[nodiscard]] model::MotionRequest shortened(const model::Motion& motion, double length);

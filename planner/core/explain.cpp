@@ -18,13 +18,14 @@ double inside(double from, double to) {
 }
 
 Vector3 meeting_place(const Candidate& candidate, const Neighbour& neighbour, const BlockedCell& cell) {
-  const auto body_at = [](const SampledMotion& m, double t, std::size_t body) {
+  const auto body_at = [](SampledMotion& motion, double t0, double t1, std::size_t body) {
+    const SampledMotion& m = motion.part(t0, t1);
     std::vector<model::Capsule> capsules;
-    model::place_capsules(m.robot().model, m.robot().X_WB, m.motion().joints(t), capsules);
+    model::place_capsules(m.robot().model, m.robot().X_WB, motion.motion().joints(inside(t0, t1)), capsules);
     return Body{capsules[body]};
   };
-  return meeting_point(body_at(*candidate.motion, inside(cell.tau0, cell.tau1), cell.own_body),
-                       body_at(*neighbour.motion, inside(cell.t0, cell.t1), cell.other_body));
+  return meeting_point(body_at(*candidate.motion, cell.tau0, cell.tau1, cell.own_body),
+                       body_at(*neighbour.motion, cell.t0, cell.t1, cell.other_body));
 }
 
 }  // namespace
@@ -43,8 +44,8 @@ std::optional<model::Conflict> explain_conflict(const Candidate& candidate, cons
   const auto stretches = united(std::move(intervals));
   model::Conflict c;
   c.blocker = neighbour.motion->robot().name;
-  c.own_link = candidate.motion->robot().model.capsules[deepest->own_body].name;
-  c.blocker_link = neighbour.motion->robot().model.capsules[deepest->other_body].name;
+  c.own_link = candidate.motion->part(deepest->tau0, deepest->tau1).robot().model.capsules[deepest->own_body].name;
+  c.blocker_link = neighbour.motion->part(deepest->t0, deepest->t1).robot().model.capsules[deepest->other_body].name;
   c.from = std::max(stretches.front().from, span.from);
   c.until = stretches.back().until;
   c.clearance = deepest->clearance;

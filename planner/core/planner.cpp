@@ -28,6 +28,7 @@ MapLimits map_limits(const Neighbourhood& neighbourhood) {
 
 Planner::Planner(std::shared_ptr<const model::Cell> cell, PlannerOptions options)
     : cell_(std::move(cell)),
+      bodies_(std::make_shared<model::Bodies>(*cell_)),
       options_(std::move(options)),
       strategy_(make_strategy(options_.strategy, *cell_)),
       neighbourhood_(*cell_),
@@ -37,7 +38,10 @@ Planner::Planner(std::shared_ptr<const model::Cell> cell, PlannerOptions options
   for (model::RobotIndex i = 0; i < robots_.size(); ++i) {
     const model::Robot& robot = cell_->robots[i];
     robots_[i].robot = &robot;
-    robots_[i].standing = std::make_shared<SampledMotion>(model::Motion::rest(robot, robot.start), cell_->planning.resolution);
+    robots_[i].tools = cell_->set_of(robot.holds);
+    robots_[i].reach = neighbourhood_.volume(i);
+    robots_[i].standing =
+        std::make_shared<SampledMotion>(model::Motion::rest(bodies_->of(i, robots_[i].tools), robot.start), cell_->planning.resolution);
   }
 }
 
@@ -244,6 +248,7 @@ void Planner::dispatch(RobotRecord& r, Instant now, Decisions& out) {
   d.attempt = c.command.attempts;
   d.motion = c.command.request;
   d.from = c.command.motion->motion().from();
+  d.holds = cell_->names_of(c.command.tools.before);
   d.earliest = c.start_from;
   d.latest = c.start_until;
   d.duration = c.command.motion->motion().duration();
@@ -278,6 +283,7 @@ model::PlannerState Planner::state(Instant now) const {
   for (const RobotRecord& r : robots_) {
     model::RobotStatus status;
     status.name = r.robot->name;
+    status.holds = cell_->names_of(r.tools);
     status.queued = static_cast<std::uint32_t>(r.queue.size() + r.escapes.size());
     const QueuedCommand* next = r.next();
     const CommandStatus* current = r.committed ? &r.committed->command.status : next ? &next->status : nullptr;

@@ -82,8 +82,16 @@ class Planner {
 
   // Commands: planner_commands.cpp
   void reject(model::CommandStatus status, model::Reason reason, std::string text, Decisions& out);
-  [[nodiscard]] model::Result<std::vector<SampledMotionPtr>, model::MotionError> chain_from(const RobotRecord& r, model::Joints from) const;
-  [[nodiscard]] model::Result<std::vector<SampledMotionPtr>, model::MotionError> judge_queue(RobotRecord& r);
+  /// A command as it can be carried out.
+  struct Admitted {
+    SampledMotionPtr motion;
+    model::ToolSteps tools;
+  };
+  using AdmittedQueue = std::vector<Admitted>;
+  [[nodiscard]] model::Result<Admitted, model::MotionError> judge(const RobotRecord& r, const model::Joints& from, model::ToolSet held,
+                                                                  const model::MotionRequest& request) const;
+  [[nodiscard]] model::Result<AdmittedQueue, model::MotionError> chain_from(const RobotRecord& r, model::Joints from) const;
+  [[nodiscard]] model::Result<AdmittedQueue, model::MotionError> judge_queue(RobotRecord& r);
   void rejudge_queue(RobotRecord& r, Decisions& out);
   void drop_escapes(RobotRecord& r, Decisions& out);
   bool cancel(RobotRecord& r, const model::CommandId& id, Decisions& out);
@@ -139,6 +147,7 @@ class Planner {
   void check_clearing();
 
   std::shared_ptr<const model::Cell> cell_;
+  std::shared_ptr<model::Bodies> bodies_;  // copies share it: motions refer to what is in it
   PlannerOptions options_;
   std::shared_ptr<const Strategy> strategy_;  // stateless: copies share it
   Neighbourhood neighbourhood_;

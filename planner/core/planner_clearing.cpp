@@ -44,7 +44,7 @@ bool Planner::go_on_clearing(Instant now, Decisions& out) {
 bool Planner::send(const UntangleStep& step, Instant now, Decisions& out) {
   RobotRecord& b = robots_[step.robot];
   if (!escape_view(b, now).immovable.empty()) return false;
-  auto motion = admit(*cell_, step.robot, b.standing->motion().to(), step.request);
+  auto motion = admit(*cell_, step.robot, b.standing->robot(), b.standing->motion().to(), step.request);
   if (!motion || (*motion)->motion().duration() <= 0) return false;
   const Candidate candidate = candidate_of(b, *motion);
   Assessment a = strategy_->assess(candidate, neighbours_of(b, now), timing_at(now), maps_);

@@ -77,17 +77,17 @@ Decisions Planner::on(const model::CommandSubmitted& event, Instant now) {
   command.request = event.motion;
   command.priority = event.priority;
   // The first in the queue may need the way back from an escape; the others start where the one before them ends.
-  model::Result<SampledMotionPtr, model::MotionError> motion;
+  model::Result<Admitted, model::MotionError> admitted;
   if (r.queue.empty()) {
     r.queue.push_back(command);
     auto chain = judge_queue(r);
     r.queue.pop_back();
-    motion = chain ? model::Result<SampledMotionPtr, model::MotionError>{chain->front()} : model::unexpected(chain.error());
+    admitted = chain ? model::Result<Admitted, model::MotionError>{chain->front()} : model::unexpected(chain.error());
   } else {
-    motion = admit(*cell_, *index, r.joints_at_end(), event.motion);
+    admitted = judge(r, r.joints_at_end(), r.tools_at_end(), event.motion);
   }
-  if (!motion) {
-    reject(status, motion.error().reason, motion.error().text, out);
+  if (!admitted) {
+    reject(status, admitted.error().reason, admitted.error().text, out);
     return out;
   }
   ++accepted_;
@@ -95,38 +95,55 @@ Decisions Planner::on(const model::CommandSubmitted& event, Instant now) {
   if (!r.next() && !r.committed) r.ready_since = now;
   command.status.state = CommandState::queued;
   publish(command.status, out);
-  command.motion = std::move(*motion);
+  command.motion = std::move(admitted->motion);
+  command.tools = admitted->tools;
   r.queue.push_back(std::move(command));
   schedule(now, out);
   return out;
 }
 
+/// `request` for the robot standing at `from` [rad] with `held` in its hand, or why it is impossible.
+model::Result<Planner::Admitted, model::MotionError> Planner::judge(const RobotRecord& r, const model::Joints& from, model::ToolSet held,
+                                                                    const model::MotionRequest& request) const {
+  const auto steps = model::tool_steps(*cell_, r.robot->name, held, request.tools);
+  if (!steps) {
+    const Vector3 place = (r.robot->X_WB * model::tcp_pose(r.robot->model, from)).translation();
+    return model::unexpected(model::MotionError{Reason::tool, 0, place, steps.error()});
+  }
+  auto motion = admit(*cell_, index_of(r), model::MotionBodies::of(*bodies_, index_of(r), *steps), from, request);
+  if (!motion) return model::unexpected(motion.error());
+  return Admitted{std::move(*motion), *steps};
+}
+
 /// The motions of the commands in the main queue, one after the other from `from` on [rad]; those that stay as they are included.
-model::Result<std::vector<SampledMotionPtr>, model::MotionError> Planner::chain_from(const RobotRecord& r, model::Joints from) const {
-  std::vector<SampledMotionPtr> chain;
+model::Result<Planner::AdmittedQueue, model::MotionError> Planner::chain_from(const RobotRecord& r, model::Joints from) const {
+  AdmittedQueue chain;
+  model::ToolSet held = r.tools_after_motion();
   for (const QueuedCommand& command : r.queue) {
-    if (command.motion && same_joints(command.motion->motion().from(), from)) {
+    if (command.motion && same_joints(command.motion->motion().from(), from) && command.tools.before == held) {
       // From here on nothing changes.
-      for (std::size_t i = chain.size(); i < r.queue.size(); ++i) chain.push_back(r.queue[i].motion);
+      for (std::size_t i = chain.size(); i < r.queue.size(); ++i) chain.push_back({r.queue[i].motion, r.queue[i].tools});
       return chain;
     }
-    auto motion = admit(*cell_, index_of(r), from, command.request);
-    if (!motion) return model::unexpected(motion.error());
-    from = (*motion)->motion().to();
-    chain.push_back(std::move(*motion));
+    auto next = judge(r, from, held, command.request);
+    if (!next) return model::unexpected(next.error());
+    from = next->motion->motion().to();
+    held = next->tools.after;
+    chain.push_back(std::move(*next));
   }
   return chain;
 }
 
 /// Judges the main queue from where the robot will be, as a whole. When an escape has left the robot where that is impossible, the way back
 /// to where the queue was judged from goes into the escape queue first, as far as it takes.
-model::Result<std::vector<SampledMotionPtr>, model::MotionError> Planner::judge_queue(RobotRecord& r) {
+model::Result<Planner::AdmittedQueue, model::MotionError> Planner::judge_queue(RobotRecord& r) {
   model::Joints from = r.joints_after_motion();
   auto direct = chain_from(r, from);
   if (direct || r.way_back.empty()) return direct;
+  const model::ToolSet held = r.tools_after_motion();
   std::deque<QueuedCommand> way;
   for (auto back = r.way_back.rbegin(); back != r.way_back.rend(); ++back) {
-    auto motion = admit(*cell_, index_of(r), from, *back);
+    auto motion = admit(*cell_, index_of(r), bodies_->of(index_of(r), held), from, *back);
     if (!motion) return direct;
     from = (*motion)->motion().to();
     QueuedCommand escape;
@@ -139,6 +156,7 @@ model::Result<std::vector<SampledMotionPtr>, model::MotionError> Planner::judge_
     escape.status.submitted = r.queue.front().status.submitted;
     escape.request = *back;
     escape.motion = std::move(*motion);
+    escape.tools = {held, held, held};
     way.push_back(std::move(escape));
     if (auto chain = chain_from(r, from)) {
       r.escapes = std::move(way);
@@ -164,23 +182,29 @@ void Planner::rejudge_queue(RobotRecord& r, Decisions& out) {
   changed(r);
   drop_escapes(r, out);
   if (const auto chain = judge_queue(r)) {
-    for (std::size_t i = 0; i < r.queue.size(); ++i) r.queue[i].motion = (*chain)[i];
+    for (std::size_t i = 0; i < r.queue.size(); ++i) {
+      r.queue[i].motion = (*chain)[i].motion;
+      r.queue[i].tools = (*chain)[i].tools;
+    }
     return;
   }
   // Not all of it is possible any more: what is not is rejected.
   model::Joints from = r.joints_after_motion();
+  model::ToolSet held = r.tools_after_motion();
   for (auto it = r.queue.begin(); it != r.queue.end();) {
-    if (!same_joints(it->motion->motion().from(), from)) {
-      auto motion = admit(*cell_, index_of(r), from, it->request);
-      if (!motion) {
-        reject(it->status, motion.error().reason, fmt::format("no longer possible from where the robot is now: {}", motion.error().text),
-               out);
+    if (!same_joints(it->motion->motion().from(), from) || it->tools.before != held) {
+      auto admitted = judge(r, from, held, it->request);
+      if (!admitted) {
+        const char* why = admitted.error().reason == Reason::tool ? "with what the robot holds" : "from where the robot is";
+        reject(it->status, admitted.error().reason, fmt::format("no longer possible {} now: {}", why, admitted.error().text), out);
         it = r.queue.erase(it);
         continue;
       }
-      it->motion = std::move(*motion);
+      it->motion = std::move(admitted->motion);
+      it->tools = admitted->tools;
     }
     from = it->motion->motion().to();
+    held = it->tools.after;
     ++it;
   }
 }

@@ -108,7 +108,10 @@ EscapeView Planner::escape_view(const RobotRecord& r, Instant now) const {
     home.target = model::JointTarget{r.robot->home};
     view.home.push_back(home);
   }
-  if (!r.queue.empty()) view.next = &r.queue.front().request;
+  if (!r.queue.empty()) {
+    view.next = &r.queue.front().request;
+    view.next_bodies = r.queue.front().motion->bodies();
+  }
   return view;
 }
 
@@ -144,6 +147,7 @@ void Planner::commit_escape(PlannedMotion e, const model::CommandId& serves, Ins
   escape.status.submitted = now;
   escape.request = e.request;
   escape.motion = e.motion;
+  escape.tools = {b.tools_after_motion(), b.tools_after_motion(), b.tools_after_motion()};
   e.assessment.reason = Reason::escape;
   b.way_back.push_back(undoing(e.motion->motion()));
   b.escapes.push_front(std::move(escape));

@@ -46,8 +46,9 @@ void append(Decisions more, Decisions& out) {
 }  // namespace
 
 void Planner::stand_at(RobotRecord& r, const model::Joints& q, Instant now, Decisions& out, bool escaped) {
-  if ((r.standing->motion().to() - q).cwiseAbs().maxCoeff() > 0) {
-    r.standing = std::make_shared<SampledMotion>(model::Motion::rest(*r.robot, q), cell_->planning.resolution);
+  if ((r.standing->motion().to() - q).cwiseAbs().maxCoeff() > 0 || r.standing->robot().tools != r.tools) {
+    const model::Robot& body = bodies_->of(index_of(r), r.tools);
+    r.standing = std::make_shared<SampledMotion>(model::Motion::rest(body, q), cell_->planning.resolution);
   }
   // A robot that was only sent out of the way keeps its place among those that wait.
   if (!escaped || r.queue.empty()) r.ready_since = now;
@@ -100,7 +101,7 @@ void Planner::revoke_dependents(model::RobotIndex robot, Decisions& out) {
     if (r.following) put_following_back(r);
     if (r.committed->phase == Commitment::Phase::started) continue;
     const SampledMotionPtr theirs = robots_[robot].committed ? robots_[robot].committed->command.motion : robots_[robot].standing;
-    const bool meets = robots_[robot].lost() ? enters_reach(*r.committed->command.motion, *robots_[robot].robot)
+    const bool meets = robots_[robot].lost() ? enters_reach(*r.committed->command.motion, robots_[robot].reach)
                                              : !maps_.get(r.committed->command.motion, theirs).map.blocked.empty();
     if (!meets) continue;
     if (r.committed->phase == Commitment::Phase::held) {
@@ -126,7 +127,11 @@ Decisions Planner::on(const model::PostureReported& event, Instant now) {
   r.heard = true;
   r.last_heard = now;
   r.ready = event.ready;
-  if (event.moving && r.committed && r.committed->phase == Commitment::Phase::dispatched &&
+  const bool sent = r.committed && r.committed->phase != Commitment::Phase::held;
+  const model::ToolSet held = cell_->set_of(event.holds);
+  // With something in its hand that it was not to hold, nothing that was proven of its motion is true.
+  const bool with_more = sent && !(event.moving ? r.committed->command.tools.during : r.committed->command.tools.all()).covers(held);
+  if (event.moving && sent && !with_more && r.committed->phase == Commitment::Phase::dispatched &&
       r.committed->command.status.id == event.motion) {
     const Instant seen = event.at + model::from_seconds(event.uncertainty);
     begin(r, {r.committed->start_from, std::clamp(seen, r.committed->start_from, r.committed->start_until)}, out);
@@ -134,16 +139,17 @@ Decisions Planner::on(const model::PostureReported& event, Instant now) {
     schedule(now, out);
     return out;
   }
-  const bool sent = r.committed && r.committed->phase != Commitment::Phase::held;
   const bool ours = r.committed && r.committed->phase == Commitment::Phase::started;
-  r.foreign = event.moving && !ours;
+  r.foreign = (event.moving && !ours) || with_more;
   const bool newly = was_lost != r.lost() || was_ready != r.ready;
   if (newly) changed(r);
   bool moved = false;
-  if (!event.moving && !sent && (event.joints - r.standing->motion().to()).cwiseAbs().maxCoeff() > kSamePlace) {
+  const bool elsewhere = (event.joints - r.standing->motion().to()).cwiseAbs().maxCoeff() > kSamePlace;
+  if (!event.moving && !sent && (elsewhere || held != r.tools)) {
     if (r.committed) put_back(r, Reason::none, {}, out);
     r.way_back.clear();
     r.trail.clear();
+    r.tools = held;
     stand_at(r, event.joints, now, out);
     revoke_dependents(*index, out);
     moved = true;
@@ -196,6 +202,7 @@ std::optional<model::ExecutionReported> Planner::unreported_outcome(const RobotR
   report.attempt = c.command.attempts;
   report.at = r.stood->at;
   report.joints = r.stood->joints;
+  report.holds = r.stood->holds;
   if (stands_at(c.command.motion->motion().to())) {
     report.state = ExecutionState::completed;
   } else if (!started && stands_at(c.command.motion->motion().from())) {
@@ -239,22 +246,24 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
       const model::Motion& motion = c.command.motion->motion();
       const model::Joints promised = motion.to();
       const bool arrived = (event.joints - promised).cwiseAbs().maxCoeff() <= kSamePlace;
+      r.tools = cell_->set_of(event.holds);
+      const bool as_promised = arrived && r.tools == c.command.tools.after;
       const auto origin = c.command.origin;
       if (origin == QueuedCommand::Origin::client) ++completed_;
       if (origin == QueuedCommand::Origin::way_back && !r.way_back.empty()) r.way_back.pop_back();
       r.trail.push_front(undoing(motion));
       if (r.trail.size() > kTrail) r.trail.pop_back();
-      if (!arrived) {
+      if (!as_promised) {
         r.way_back.clear();
         r.trail.clear();
       }
       r.known_at = std::max(r.known_at, std::min(event.at, now));
       if (arrived && motion.duration() > 0) r.standing = c.command.motion->standing_at_end();
-      if (r.following && !arrived) put_following_back(r);
+      if (r.following && !as_promised) put_following_back(r);
       r.committed = std::move(r.following);
       r.following.reset();
       stand_at(r, arrived ? promised : event.joints, now, out, origin != QueuedCommand::Origin::client);
-      if (!arrived) revoke_dependents(*index, out);
+      if (!as_promised) revoke_dependents(*index, out);
       break;
     }
     case ExecutionState::refused:
@@ -287,6 +296,7 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
       r.trail.clear();
       if (r.following) put_following_back(r);
       r.committed.reset();
+      r.tools = cell_->set_of(event.holds);
       stand_at(r, event.joints, now, out);
       revoke_dependents(*index, out);
       break;

@@ -39,8 +39,14 @@ ReachableVolume reachable_volume(const model::Robot& robot) {
   return volume;
 }
 
-bool enters_reach(SampledMotion& motion, const model::Robot& other) {
-  const ReachableVolume volume = reachable_volume(other);
+ReachableVolume reachable_volume(const model::Cell& cell, model::RobotIndex robot) {
+  return reachable_volume(model::with_tools(cell.robots[robot], cell.tools, cell.all_tools()));
+}
+
+bool enters_reach(SampledMotion& motion, const ReachableVolume& volume) {
+  for (SampledMotion* standing : {&motion.at_start(), &motion.at_end()}) {
+    if (standing != &motion && enters_reach(*standing, volume)) return true;
+  }
   const int level = std::min(motion.depth(), 5);
   for (std::size_t index = 0; index < (std::size_t{1} << level); ++index) {
     const auto& piece = motion.piece(level, index);

@@ -13,6 +13,7 @@ struct ReachableVolume {
   [[nodiscard]] bool meets(const ReachableVolume& other, double margin) const {
     return (centre - other.centre).norm() <= radius + other.radius + margin;
   }
+  [[nodiscard]] bool operator==(const ReachableVolume& other) const { return centre == other.centre && radius == other.radius; }
 };
 
 /// The ball around the point of axis 1 at the shoulder's height that holds all capsules of `robot` in every posture. The arm itself may be
@@ -21,8 +22,11 @@ struct ReachableVolume {
 /// the distance b from the centre, stretched at most to a1 + c2 and a1 + c2 + k; links 4 to 6 turn about the wrist centre.
 [[nodiscard]] ReachableVolume reachable_volume(const model::Robot& robot);
 
-/// True unless it is proven that no body of `motion` ever comes into the reachable volume of `other`: where a robot that is not heard from
-/// could be.
-[[nodiscard]] bool enters_reach(SampledMotion& motion, const model::Robot& other);
+/// The same for `robot` of `cell` whatever it holds of the cell's tools, all of them at once included.
+[[nodiscard]] ReachableVolume reachable_volume(const model::Cell& cell, model::RobotIndex robot);
+
+/// True unless it is proven that no body of `motion`, standing before and after it included, ever comes into `volume`: where a robot that
+/// is not heard from could be.
+[[nodiscard]] bool enters_reach(SampledMotion& motion, const ReachableVolume& volume);
 
 }  // namespace interlace::core

@@ -12,10 +12,20 @@ const model::Joints& RobotRecord::joints_at_end() const {
   return escapes.empty() ? joints_after_motion() : escapes.back().motion->motion().to();
 }
 
+model::ToolSet RobotRecord::tools_after_motion() const {
+  if (following) return following->command.tools.after;
+  return committed ? committed->command.tools.after : tools;
+}
+
+model::ToolSet RobotRecord::tools_at_end() const {
+  return queue.empty() ? tools_after_motion() : queue.back().tools.after;  // an escape changes nothing
+}
+
 void RobotRecord::add_as_neighbour(model::RobotIndex index, Instant now, std::vector<Neighbour>& out) const {
   Neighbour n;
   n.robot = index;
   n.lost = lost();
+  n.reach = reach;
   n.motion = standing;
   const auto add = [&](const Commitment& c) {
     n.motion = c.command.motion;

@@ -19,6 +19,7 @@ struct QueuedCommand {
   model::MotionRequest request;
   int priority = 0;
   SampledMotionPtr motion;
+  model::ToolSteps tools;      ///< what its robot holds around it
   std::uint32_t attempts = 0;  ///< plans sent to the proxy so far
 };
 
@@ -60,6 +61,8 @@ struct RobotRecord {
   Instant known_at = model::kEarliest;           ///< newest instant that any report tells of; an older posture says nothing any more
   std::optional<model::PostureReported> stood;   ///< newest posture that saw it standing
   SampledMotionPtr standing;                     ///< where it stands, or stood when its motion began
+  model::ToolSet tools;                          ///< all it may hold there
+  ReachableVolume reach;                         ///< where it can be, whatever it holds
   std::deque<QueuedCommand> queue;               ///< main queue: admitted, in order
   std::deque<QueuedCommand> escapes;             ///< escape queue: goes before the main queue
   std::vector<model::MotionRequest> way_back;    ///< undoes the escapes since the robot's last own command, the newest last
@@ -89,6 +92,10 @@ struct RobotRecord {
 
   /// Posture the robot will have when what it is doing is done [rad].
   [[nodiscard]] const model::Joints& joints_after_motion() const;
+
+  /// What the robot will hold then.
+  [[nodiscard]] model::ToolSet tools_at_end() const;
+  [[nodiscard]] model::ToolSet tools_after_motion() const;
 
   /// As its neighbours have to see it at `now`: one entry, or two when something follows what it is committed to. Each stands before and
   /// after its motion, which is more than true of the two together, and safe.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 namespace interlace::core {
 
@@ -30,8 +31,9 @@ Vector3 placed(const model::Pose& X, const Vector3& p) {
 
 }  // namespace
 
-SampledMotion::SampledMotion(model::Motion motion, double resolution)
-    : motion_(std::move(motion)),
+SampledMotion::SampledMotion(model::Motion motion, double resolution, const std::optional<model::MotionBodies>& bodies)
+    : motion_(motion.duration() <= 0 && bodies ? motion.with_bodies_of(*bodies->all) : std::move(motion)),
+      bodies_(bodies.value_or(model::MotionBodies::unchanged(motion_.robot()))),
       id_(next_id()),
       depth_(depth_for(motion_.duration(), resolution)),
       finest_(depth_ > 0 ? depth_ + kFiner : 0),
@@ -77,7 +79,7 @@ const SampledMotion::Piece& SampledMotion::make(int level, std::size_t index) {
 
 SampledMotion& SampledMotion::at_start() {
   if (motion_.duration() <= 0) return *this;
-  if (!at_start_) at_start_ = std::make_unique<SampledMotion>(model::Motion::rest(robot(), motion_.from()), 1.0);
+  if (!at_start_) at_start_ = std::make_unique<SampledMotion>(model::Motion::rest(*bodies_.at_start, motion_.from()), 1.0);
   return *at_start_;
 }
 
@@ -86,8 +88,13 @@ SampledMotion& SampledMotion::at_end() {
 }
 
 const std::shared_ptr<SampledMotion>& SampledMotion::standing_at_end() {
-  if (!at_end_) at_end_ = std::make_shared<SampledMotion>(model::Motion::rest(robot(), motion_.to()), 1.0);
+  if (!at_end_) at_end_ = std::make_shared<SampledMotion>(model::Motion::rest(*bodies_.at_end, motion_.to()), 1.0);
   return at_end_;
+}
+
+SampledMotion& SampledMotion::part(double t0, double t1) {
+  constexpr double kOpen = std::numeric_limits<double>::infinity();
+  return t0 == -kOpen ? at_start() : t1 == kOpen ? at_end() : *this;
 }
 
 }  // namespace interlace::core

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "common/model/bodies.hpp"
 #include "common/model/motion.hpp"
 #include "planner/core/clearance.hpp"
 
@@ -40,13 +42,15 @@ class SampledMotion {
   static constexpr int kFiner = 2;
 
   /// Pieces of the level depth() are no longer than `resolution` [s], and short motions still have 16 of them.
-  SampledMotion(model::Motion motion, double resolution);
+  /// `bodies`: what the robot holds before and after where that is not what it holds on the way. A motion that takes no time has all of it.
+  SampledMotion(model::Motion motion, double resolution, const std::optional<model::MotionBodies>& bodies = std::nullopt);
 
   SampledMotion(const SampledMotion&) = delete;
   SampledMotion& operator=(const SampledMotion&) = delete;
 
   [[nodiscard]] const model::Motion& motion() const { return motion_; }
-  [[nodiscard]] const model::Robot& robot() const { return motion_.robot(); }
+  [[nodiscard]] const model::Robot& robot() const { return motion_.robot(); }  ///< with what it holds on the way
+  [[nodiscard]] const model::MotionBodies& bodies() const { return bodies_; }
   [[nodiscard]] std::uint64_t id() const { return id_; }  ///< unique in this process: the key of kept maps
   [[nodiscard]] int depth() const { return depth_; }      ///< halvings down to the resolution; 0 for standing
   [[nodiscard]] int finest() const { return finest_; }    ///< deepest level there is
@@ -57,12 +61,15 @@ class SampledMotion {
     return kept != nullptr ? *kept : make(level, index);
   }
 
-  /// Standing at the motion's first and last posture.
+  /// Standing at the motion's first and last posture, with all that the robot may hold there.
   [[nodiscard]] SampledMotion& at_start();
   [[nodiscard]] SampledMotion& at_end();
 
   /// Standing where the motion, which takes time, ends: for whoever stands there afterwards, who then finds the maps that know it.
   [[nodiscard]] const std::shared_ptr<SampledMotion>& standing_at_end();
+
+  /// What the piece [t0, t1] [s] of a map is about: the motion, or standing before or after it, where the piece has no end that way.
+  [[nodiscard]] SampledMotion& part(double t0, double t1);
 
  private:
   /// Room for pieces that come one by one and stay where they are: never filled beyond what was reserved.
@@ -75,6 +82,7 @@ class SampledMotion {
   const Piece& make(int level, std::size_t index);
 
   model::Motion motion_;
+  model::MotionBodies bodies_;
   std::uint64_t id_;
   int depth_ = 0;
   int finest_ = 0;

@@ -99,7 +99,7 @@ void SharedZone::divide(model::RobotIndex a, model::RobotIndex b) {
   const double margin = cell_.planning.margin;
   const auto share_with = [&](model::RobotIndex other) {
     Share share;
-    share.volume = reachable_volume(cell_.robots[other]);
+    share.volume = reachable_volume(cell_, other);
     share.volume.radius += margin;
     share.face = -std::numeric_limits<double>::infinity();
     return share;
@@ -131,7 +131,7 @@ bool SharedZone::may_hold(model::RobotIndex robot, const Body& body, double reac
 }
 
 bool SharedZone::within_reach_of(model::RobotIndex robot) const {
-  if (cell_.planning.zone) return meets_box(reachable_volume(cell_.robots[robot]), *cell_.planning.zone);
+  if (cell_.planning.zone) return meets_box(reachable_volume(cell_, robot), *cell_.planning.zone);
   return !shares_[robot].empty();
 }
 

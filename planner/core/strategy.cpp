@@ -64,7 +64,7 @@ class Event : public Strategy {
   static std::vector<StartInterval> forbidden(const Candidate& candidate, const Neighbour& n, const Timing& timing, MapStore& maps,
                                               Assessment& a) {
     if (!n.lost) return forbidden_by(candidate, n, timing, maps.get(candidate.motion, n.motion), a.departures);
-    if (!enters_reach(*candidate.motion, n.motion->robot())) return {};
+    if (!enters_reach(*candidate.motion, n.reach)) return {};
     return {{model::kEarliest, model::kForever}};
   }
 
@@ -73,7 +73,7 @@ class Event : public Strategy {
     const StartInterval span{timing.earliest, a.start.value_or(model::kForever)};
     for (const Neighbour& n : neighbours) {
       if (n.lost) {
-        if (enters_reach(*candidate.motion, n.motion->robot())) a.conflicts.push_back(lost_conflict(candidate, n, timing.earliest));
+        if (enters_reach(*candidate.motion, n.reach)) a.conflicts.push_back(lost_conflict(candidate, n, timing.earliest));
         continue;
       }
       const TimingMap& map = maps.get(candidate.motion, n.motion).map;

@@ -8,22 +8,25 @@
 #include "common/model/cell.hpp"
 #include "common/model/messages.hpp"
 #include "planner/core/map_store.hpp"
+#include "planner/core/reach.hpp"
 
 namespace interlace::core {
 
 /// Another robot as a candidate has to see it. Together with the candidate's own motion these decide whether it has a start.
 struct Neighbour {
   model::RobotIndex robot = 0;
-  SampledMotionPtr motion;              ///< its committed motion, or its standing posture
-  Instant start_from{}, start_until{};  ///< of a committed motion
-  bool committed = false;               ///< has a motion that it will carry out or is carrying out
-  bool started = false;                 ///< that motion was reported as begun
-  bool overdue = false;                 ///< its start window has passed and nobody knows whether it began
-  bool lost = false;                    ///< could be anywhere in its reach
+  SampledMotionPtr motion;                         ///< its committed motion, or its standing posture
+  Instant start_from{}, start_until{};             ///< of a committed motion
+  bool committed = false;                          ///< has a motion that it will carry out or is carrying out
+  bool started = false;                            ///< that motion was reported as begun
+  bool overdue = false;                            ///< its start window has passed and nobody knows whether it began
+  bool lost = false;                               ///< could be anywhere in its reach
+  ReachableVolume reach{Vector3::Zero(), kNever};  ///< that reach, when lost; without better knowledge everywhere
 
   [[nodiscard]] bool operator==(const Neighbour& other) const {
     return robot == other.robot && motion == other.motion && start_from == other.start_from && start_until == other.start_until &&
-           committed == other.committed && started == other.started && overdue == other.overdue && lost == other.lost;
+           committed == other.committed && started == other.started && overdue == other.overdue && lost == other.lost &&
+           reach == other.reach;
   }
 };
 

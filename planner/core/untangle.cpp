@@ -100,7 +100,7 @@ class Untangling {
     }
     Place p;
     p.q = q;
-    const model::Robot& r = cell_.robots[robot];
+    const model::Robot& r = views_[robot].body();
     p.standing =
         known.empty() ? views_[robot].motion() : std::make_shared<SampledMotion>(model::Motion::rest(r, q), cell_.planning.resolution);
     p.on_trail = on_trail;
@@ -122,7 +122,7 @@ class Untangling {
       if (to != at) ways.push_back({{robot, way, request}, std::move(motion), to});
     };
     const auto add_if_admitted = [&](EscapeWay way, const model::MotionRequest& request, bool on_trail, std::size_t back) {
-      if (auto motion = admit(cell_, robot, here.q, request)) add(way, request, std::move(*motion), on_trail, back);
+      if (auto motion = admit(cell_, robot, view.body(), here.q, request)) add(way, request, std::move(*motion), on_trail, back);
     };
     if (!here.home) {
       for (const model::MotionRequest& home : view.home) add_if_admitted(EscapeWay::home, home, false, 0);
@@ -133,7 +133,7 @@ class Untangling {
     if (six_directions_ && at == 0) {
       const Vector3 tcp = (cell_.robots[robot].X_WB * model::tcp_pose(cell_.robots[robot].model, here.q)).translation();
       for (const EscapeDirection& d : escape_directions(swept_cuboid(served_.motion->motion()), tcp)) {
-        RequestedMotion out = to_reachable_goal(cell_, robot, here.q, d.unit);
+        RequestedMotion out = to_reachable_goal(cell_, robot, view.body(), here.q, d.unit);
         if (!out.motion) continue;
         add_if_admitted(d.way, shortened(out.motion->motion(), out.motion->motion().length(out.motion->motion().duration()) / 2), false, 0);
         add(d.way, out.request, std::move(out.motion), false, 0);
@@ -164,7 +164,7 @@ class Untangling {
       if (state[served_.robot] == 0) {
         from.served = served_.motion;
       } else {
-        auto motion = admit(cell_, served_.robot, from.q, request_);
+        auto motion = admit(cell_, served_.robot, served_.motion->bodies(), from.q, request_);
         from.served = motion ? *motion : nullptr;
       }
     }

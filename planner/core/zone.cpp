@@ -48,8 +48,7 @@ Assessment Zone::assess(const Candidate& candidate, const std::vector<Neighbour>
     Objection o;
     if (n.lost) {
       const bool may_hold_the_token = own.enters && zone_.within_reach_of(n.robot);
-      if (may_hold_the_token || enters_reach(*candidate.motion, n.motion->robot()))
-        o.lost.push_back({{model::kEarliest, model::kForever}, 0});
+      if (may_hold_the_token || enters_reach(*candidate.motion, n.reach)) o.lost.push_back({{model::kEarliest, model::kForever}, 0});
     } else {
       if (own.enters) {
         const TimingMap token = token_map(own, zone_.visit(n.robot, *n.motion));

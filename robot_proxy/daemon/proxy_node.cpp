@@ -168,6 +168,7 @@ void ProxyNode::publish_posture() {
   }
   m.posture.joints = seen_.joints;
   m.posture.X_WT = seen_.X_WT;
+  m.posture.holds = seen_.holds;
   m.posture.moving = seen_.moving;
   m.posture.ready = seen_.ready && !leaving();
   if (const auto* id = executor_->running()) m.posture.motion = *id;

@@ -11,6 +11,7 @@
 #include "common/app/config/model_section.hpp"
 #include "common/app/config/pose_section.hpp"
 #include "common/app/config/preamble.hpp"
+#include "common/app/config/tool_section.hpp"
 
 namespace interlace::app {
 
@@ -139,13 +140,16 @@ model::RobotName read_name(const Field& field, const std::string& robot_key, Nam
   return model::RobotName{*text};
 }
 
-std::optional<PlacedRobot> read_robot(const Field& field, const Models& models, const Units& units, Names& names) {
-  const auto mapping = field.mapping({"name", "model", "base", "start", "home", "tcp", "controller"});
+using Tools = std::vector<model::Tool>;
+
+std::optional<PlacedRobot> read_robot(const Field& field, const Models& models, const Tools& tools, const Units& units, Names& names) {
+  const auto mapping = field.mapping({"name", "model", "base", "start", "home", "tcp", "controller", "holds"});
   if (!mapping) return std::nullopt;
   model::Robot robot;
   if (const auto name = mapping->require("name")) robot.name = read_name(*name, field.key(), names);
   if (const auto tcp = mapping->require("tcp")) robot.tcp = read_tcp(*tcp, units);
   if (const auto controller = mapping->find("controller")) robot.controller = read_controller(*controller);
+  if (const auto holds = mapping->find("holds")) robot.holds = read_held(*holds, tools);
   const auto base = mapping->require("base");
   const auto start = mapping->require("start");
   const auto X_WB = base ? read_pose(*base, units) : std::nullopt;
@@ -162,7 +166,7 @@ std::optional<PlacedRobot> read_robot(const Field& field, const Models& models, 
   return PlacedRobot{std::move(robot), *start, home.value_or(*start)};
 }
 
-std::vector<PlacedRobot> read_robots(const Field& field, const Models& models, const Units& units) {
+std::vector<PlacedRobot> read_robots(const Field& field, const Models& models, const Tools& tools, const Units& units) {
   std::vector<PlacedRobot> robots;
   const auto items = field.items("robots");
   if (!items) return robots;
@@ -172,7 +176,7 @@ std::vector<PlacedRobot> read_robots(const Field& field, const Models& models, c
   }
   Names names;
   for (const auto& item : *items) {
-    auto robot = read_robot(item, models, units, names);
+    auto robot = read_robot(item, models, tools, units, names);
     if (robot) robots.push_back(std::move(*robot));
   }
   return robots;
@@ -180,18 +184,20 @@ std::vector<PlacedRobot> read_robots(const Field& field, const Models& models, c
 
 model::Cell read_cell(const YAML::Node& document, const std::string& file_name, const MeshReader& meshes, Findings& findings) {
   model::Cell cell;
-  const auto file = Field{document, "", findings}.mapping({"interlace", "units", "cell", "models", "robots", "fixtures", "planning"});
+  const auto file =
+      Field{document, "", findings}.mapping({"interlace", "units", "cell", "models", "tools", "robots", "fixtures", "planning"});
   if (!file) return cell;
   const Units units = read_preamble(*file);
   if (const auto name = file->require("cell")) cell.name = name->name().value_or("");
   const auto models_field = file->require("models");
   const Models models = models_field ? read_models(*models_field, units) : Models{};
+  if (const auto tools = file->find("tools")) cell.tools = read_tools(*tools, units);
   const auto robots_field = file->require("robots");
-  const auto robots = robots_field ? read_robots(*robots_field, models, units) : std::vector<PlacedRobot>{};
+  const auto robots = robots_field ? read_robots(*robots_field, models, cell.tools, units) : std::vector<PlacedRobot>{};
   if (const auto fixtures = file->find("fixtures")) cell.fixtures = read_fixtures(*fixtures, units, file_name, meshes);
   if (const auto planning = file->find("planning")) cell.planning = read_planning(*planning, units);
   // With anything else in doubt, units above all, collisions found now could mislead.
-  if (findings.none()) check_clearances(robots, cell.fixtures, cell.planning.margin, units);
+  if (findings.none()) check_clearances(robots, cell.tools, cell.fixtures, cell.planning.margin, units);
   for (const auto& placed : robots) cell.robots.push_back(placed.robot);
   return cell;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/model/bodies.hpp"
 #include "common/model/fixture_distance.hpp"
 #include "common/model/segment_distance.hpp"
 
@@ -17,22 +18,22 @@ double clearance(const Capsule& a, const Capsule& b) {
 
 /// One robot standing somewhere.
 struct Standing {
-  const model::Robot* robot;
+  model::Robot robot;
   const Field* field;
   std::vector<Capsule> capsules;
 
-  [[nodiscard]] std::string link(std::size_t capsule) const { return robot->name.str() + "." + robot->model.capsules[capsule].name; }
+  [[nodiscard]] std::string link(std::size_t capsule) const { return robot.name.str() + "." + robot.model.capsules[capsule].name; }
 };
 
 Standing stand(const model::Robot& robot, const model::Joints& q, const Field& field) {
-  Standing standing{&robot, &field, {}};
+  Standing standing{robot, &field, {}};
   model::place_capsules(robot.model, robot.X_WB, q, standing.capsules);
   return standing;
 }
 
 /// These tell whether there was nothing to complain about.
 bool check_self(const Standing& s, const Units& units) {
-  for (const auto& [i, j] : s.robot->model.self_pairs) {
+  for (const auto& [i, j] : s.robot.model.self_pairs) {
     const double d = clearance(s.capsules[i], s.capsules[j]);
     if (d > 0) continue;
     s.field->refuse(fmt::format("collides with itself: clearance of {} and {} would be {}, expected > 0", s.link(i), s.link(j),
@@ -87,13 +88,16 @@ bool check_all(const std::vector<Standing>& standing, const std::vector<model::F
 
 }  // namespace
 
-void check_clearances(const std::vector<PlacedRobot>& robots, const std::vector<model::Fixture>& fixtures, double margin,
-                      const Units& units) {
+void check_clearances(const std::vector<PlacedRobot>& robots, const std::vector<model::Tool>& tools,
+                      const std::vector<model::Fixture>& fixtures, double margin, const Units& units) {
+  model::Cell known;  // the tools alone
+  known.tools = tools;
   std::vector<Standing> starts;
   std::vector<Standing> homes;
   for (const auto& placed : robots) {
-    starts.push_back(stand(placed.robot, placed.robot.start, placed.start));
-    homes.push_back(stand(placed.robot, placed.robot.home, placed.home));
+    const model::Robot body = model::with_tools(placed.robot, tools, known.set_of(placed.robot.holds));
+    starts.push_back(stand(body, body.start, placed.start));
+    homes.push_back(stand(body, body.home, placed.home));
   }
   // Homes are starts by default: do not complain twice.
   if (check_all(starts, fixtures, margin, units)) check_all(homes, fixtures, margin, units);

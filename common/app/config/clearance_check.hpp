@@ -15,8 +15,8 @@ struct PlacedRobot {
 };
 
 /// Complains about robots that touch themselves, or each other or a fixture by `margin` [m], when all stand at their start and when all
-/// stand at home.
-void check_clearances(const std::vector<PlacedRobot>& robots, const std::vector<model::Fixture>& fixtures, double margin,
-                      const Units& units);
+/// stand at home, with what of `tools` they hold at first.
+void check_clearances(const std::vector<PlacedRobot>& robots, const std::vector<model::Tool>& tools,
+                      const std::vector<model::Fixture>& fixtures, double margin, const Units& units);
 
 }  // namespace interlace::app

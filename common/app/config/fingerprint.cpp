@@ -40,6 +40,17 @@ class Canonical {
   std::string text_;
 };
 
+void write(const std::vector<model::LinkCapsule>& capsules, Canonical& out) {
+  out.count(capsules.size());
+  for (const auto& capsule : capsules) {
+    out.text(capsule.name);
+    out.count(capsule.link);
+    out.numbers(capsule.a);
+    out.numbers(capsule.b);
+    out.number(capsule.radius);
+  }
+}
+
 void write(const model::RobotModel& model, Canonical& out) {
   const auto& p = model.kinematics.parameters();
   for (const double value : {p.a1, p.a2, p.b, p.c1, p.c2, p.c3, p.c4}) out.number(value);
@@ -50,14 +61,7 @@ void write(const model::RobotModel& model, Canonical& out) {
   out.maybe(model.joints.velocity);
   out.maybe(model.joints.acceleration);
   out.pose(model.X_FT);
-  out.count(model.capsules.size());
-  for (const auto& capsule : model.capsules) {
-    out.text(capsule.name);
-    out.count(capsule.link);
-    out.numbers(capsule.a);
-    out.numbers(capsule.b);
-    out.number(capsule.radius);
-  }
+  write(model.capsules, out);
   out.count(model.self_pairs.size());
   for (const auto& [i, j] : model.self_pairs) {
     out.count(i);
@@ -78,6 +82,8 @@ void write(const model::Robot& robot, Canonical& out) {
   out.number(robot.controller.start_latency);
   out.number(robot.controller.start_jitter);
   out.number(robot.controller.speed_error);
+  out.count(robot.holds.size());
+  for (const auto& tool : robot.holds) out.text(tool.str());
 }
 
 /// After the number of the shape's type.
@@ -128,6 +134,11 @@ std::uint64_t fingerprint(const model::Cell& cell) {
   for (const auto& robot : cell.robots) write(robot, out);
   out.count(cell.fixtures.size());
   for (const auto& fixture : cell.fixtures) write(fixture, out);
+  out.count(cell.tools.size());
+  for (const auto& tool : cell.tools) {
+    out.text(tool.name.str());
+    write(tool.capsules, out);
+  }
   out.number(cell.planning.resolution);
   out.number(cell.planning.margin);
   out.text(cell.planning.strategy);

@@ -5,12 +5,14 @@
 #include "common/app/config/document.hpp"
 #include "common/app/config/pose_section.hpp"
 #include "common/app/config/preamble.hpp"
+#include "common/app/config/tool_section.hpp"
 
 namespace interlace::app {
 
 namespace {
 
 using Names = std::vector<model::RobotName>;
+using Tools = std::vector<model::Tool>;
 using model::Program;
 using model::ProgramStep;
 
@@ -33,13 +35,14 @@ std::optional<model::Target> read_target(const Mapping& step, const Units& units
 }
 
 /// A step with findings comes back incomplete; the caller sees the findings.
-ProgramStep read_step(const Field& field, const Units& units) {
+ProgramStep read_step(const Field& field, const Tools* tools, const Units& units) {
   ProgramStep step;
-  const auto mapping = field.mapping({"move", "to", "velocity", "acceleration", "priority", "at"});
+  const auto mapping = field.mapping({"move", "to", "velocity", "acceleration", "priority", "at", "attach", "detach", "when"});
   if (!mapping) return step;
   step.motion.target = read_target(*mapping, units).value_or(model::Target{});
   if (const auto velocity = mapping->find("velocity")) step.motion.velocity = velocity->number(speed(units));
   if (const auto value = mapping->find("acceleration")) step.motion.acceleration = value->number(acceleration(units));
+  step.motion.tools = read_tool_change(*mapping, tools);
   if (const auto priority = mapping->find("priority")) step.priority = priority->integer(-kLargestPriority, kLargestPriority).value_or(0);
   if (const auto at = mapping->find("at")) step.at = at->number(seconds(kLatestRelease)).value_or(0);
   return step;
@@ -54,7 +57,7 @@ void check_robot(const std::string& name, const Field& entry, const Names* robot
                  did_you_mean(name, names));
 }
 
-Program read_robots(const Field& field, const Names* robots, const Units& units) {
+Program read_robots(const Field& field, const Names* robots, const Tools* tools, const Units& units) {
   Program program;
   const auto mapping = field.mapping({});
   if (!mapping) return program;
@@ -63,7 +66,7 @@ Program read_robots(const Field& field, const Names* robots, const Units& units)
     auto& steps = program.robots.emplace_back(model::RobotName{name}, std::vector<ProgramStep>{}).second;
     const auto items = entry.items("commands");
     if (!items) continue;
-    for (const auto& item : *items) steps.push_back(read_step(item, units));
+    for (const auto& item : *items) steps.push_back(read_step(item, tools, units));
   }
   return program;
 }
@@ -77,7 +80,7 @@ void unroll(Program& program, int repeat) {
   }
 }
 
-Program read_program(const YAML::Node& document, const Names* robots, Findings& findings) {
+Program read_program(const YAML::Node& document, const Names* robots, const Tools* tools, Findings& findings) {
   const auto file = Field{document, "", findings}.mapping({"interlace", "units", "repeat", "program"});
   if (!file) return {};
   const Units units = read_preamble(*file);
@@ -85,7 +88,7 @@ Program read_program(const YAML::Node& document, const Names* robots, Findings& 
   const int repeat = repeat_field ? repeat_field->integer(1, kMaxProgramSize).value_or(1) : 1;
   const auto field = file->require("program");
   if (!field) return {};
-  Program program = read_robots(*field, robots, units);
+  Program program = read_robots(*field, robots, tools, units);
   if (!findings.none()) return program;
   if (program.size() == 0) field->refuse("empty program: expected at least one command");
   if (program.size() * static_cast<std::size_t>(repeat) > static_cast<std::size_t>(kMaxProgramSize)) {
@@ -96,11 +99,11 @@ Program read_program(const YAML::Node& document, const Names* robots, Findings& 
   return program;
 }
 
-model::Result<Program, ConfigError> parse(const std::string& text, const std::string& file_name, const Names* robots) {
+model::Result<Program, ConfigError> parse(const std::string& text, const std::string& file_name, const Names* robots, const Tools* tools) {
   Findings findings{file_name};
   const auto document = parse_document(text, findings);
   if (!document) return model::unexpected{findings.error()};
-  Program program = read_program(*document, robots, findings);
+  Program program = read_program(*document, robots, tools, findings);
   if (!findings.none()) return model::unexpected{findings.error()};
   return program;
 }
@@ -114,12 +117,13 @@ Names names_of(const model::Cell& cell) {
 }  // namespace
 
 model::Result<Program, ConfigError> parse_program(const std::string& text, const std::string& file_name, const Names& robots) {
-  return parse(text, file_name, &robots);
+  return parse(text, file_name, &robots, nullptr);
 }
 
 model::Result<Program, ConfigError> parse_program(const std::string& text, const std::string& file_name, const model::Cell* cell) {
-  if (!cell) return parse(text, file_name, nullptr);
-  return parse_program(text, file_name, names_of(*cell));
+  if (!cell) return parse(text, file_name, nullptr, nullptr);
+  const Names robots = names_of(*cell);
+  return parse(text, file_name, &robots, &cell->tools);
 }
 
 model::Result<Program, ConfigError> load_program(const std::string& path, const Names& robots) {

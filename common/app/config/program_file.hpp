@@ -18,7 +18,7 @@ inline constexpr int kMaxProgramSize = 200'000;  ///< commands of one program, `
 /// thread.
 [[nodiscard]] model::Result<model::Program, ConfigError> parse_program(const std::string& text, const std::string& file_name,
                                                                        const std::vector<model::RobotName>& robots);
-/// For the robots of `cell`; for any validly named robots when it is null.
+/// For the robots and tools of `cell`; for any validly named ones when it is null. Without a cell the planner judges a tool's name.
 [[nodiscard]] model::Result<model::Program, ConfigError> parse_program(const std::string& text, const std::string& file_name,
                                                                        const model::Cell* cell);
 

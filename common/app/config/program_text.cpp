@@ -29,6 +29,11 @@ void write_step(Text& out, const model::ProgramStep& step, const Units& units) {
   }
   if (step.motion.velocity) append(out, ", velocity: {}", number_text(*step.motion.velocity, units.per_metre));
   if (step.motion.acceleration) append(out, ", acceleration: {}", number_text(*step.motion.acceleration, units.per_metre));
+  if (const auto& tools = step.motion.tools) {
+    if (!tools->attach.empty()) append(out, ", attach: {}", tools->attach.str());
+    if (!tools->detach.empty()) append(out, ", detach: {}", tools->detach.str());
+    if (tools->when == model::ToolTime::start) append(out, ", when: start");
+  }
   if (step.priority != 0) append(out, ", priority: {}", step.priority);
   if (step.at > 0) append(out, ", at: {}", number_text(step.at, 1));
   append(out, "}}\n");

@@ -10,6 +10,29 @@ using model::from_seconds;
 using model::Joints;
 using model::to_seconds;
 
+namespace {
+
+using Tools = std::vector<model::ToolName>;
+
+bool is_in(const model::ToolName& tool, const Tools& held) {
+  return std::find(held.begin(), held.end(), tool) != held.end();
+}
+
+/// Why a hand that holds `held` cannot do that; empty: it can.
+std::string why_not(const model::ToolChange& change, const Tools& held) {
+  if (!change.detach.empty() && !is_in(change.detach, held)) return "there is no " + change.detach.str() + " in its hand to leave";
+  if (!change.attach.empty() && is_in(change.attach, held)) return change.attach.str() + " is in its hand already";
+  return {};
+}
+
+Tools changed(Tools held, const model::ToolChange& change) {
+  held.erase(std::remove(held.begin(), held.end(), change.detach), held.end());
+  if (!change.attach.empty()) held.push_back(change.attach);
+  return held;
+}
+
+}  // namespace
+
 SimController::SimController(const model::Robot& robot, SimOptions options)
     : robot_(&robot), options_(options), random_(options.seed), standing_(robot.start) {}
 
@@ -38,6 +61,10 @@ DriverResult SimController::execute(const model::MotionRequest& request, MotionN
     script_.pop_front();
     if (!script->fail_at) return model::unexpected(script->why);
   }
+  const Tools held = holds(now);
+  if (request.tools) {
+    if (const std::string why = why_not(*request.tools, held); !why.empty()) return model::unexpected(why);
+  }
   const Joints from = run_ ? run_->motion.joints(path_time(*run_, now)) : standing_;
   auto motion = model::plan_motion(*robot_, from, request);
   if (!motion) return model::unexpected(motion.error().text);
@@ -47,6 +74,8 @@ DriverResult SimController::execute(const model::MotionRequest& request, MotionN
   Run run{std::move(*motion), number, stretch, begin, begin + from_seconds(end_path_time * stretch), end_path_time, {}};
   run.fault = script.has_value();
   if (script) run.failure = script->why;
+  run.held = held;
+  run.change = request.tools;
   run_ = std::move(run);
   return {};
 }
@@ -78,11 +107,20 @@ Joints SimController::joints(LocalTime now) const {
   return run_ ? run_->motion.joints(path_time(*run_, now)) : standing_;
 }
 
+Tools SimController::holds(LocalTime now) const {
+  if (!run_) return robot_->holds;
+  if (!run_->change || run_->cancelled) return run_->held;
+  const bool arrived = now >= run_->end && run_->failure.empty();
+  const bool over = run_->change->when == model::ToolTime::start ? now >= run_->begin : arrived;
+  return over ? changed(run_->held, *run_->change) : run_->held;
+}
+
 ControllerState SimController::observe(LocalTime now) const {
   ControllerState state;
   state.at = now;
   state.joints = joints(now);
   state.X_WT = robot_->X_WB * model::tcp_pose(robot_->model, state.joints);
+  state.holds = holds(now);
   state.fault = fault_;
   if (run_) {
     MotionProgress& progress = state.motion;

@@ -41,6 +41,9 @@ class SimController {
   /// The joints of `observe` [rad] alone, for those who ask every millisecond.
   [[nodiscard]] model::Joints joints(LocalTime now) const;
 
+  /// What is in its hand, `ControllerState::holds` alone. A change takes no time: at the begin or at the end of a motion that arrives.
+  [[nodiscard]] std::vector<model::ToolName> holds(LocalTime now) const;
+
   /// First change of phase after `now`: begin, end or fault of the motion. Empty when none will come by itself.
   [[nodiscard]] std::optional<LocalTime> next_event(LocalTime now) const;
 
@@ -69,6 +72,8 @@ class SimController {
     bool fault = false;                               // not ready after the end
     bool cancelled = false;                           // stopped before it began
     std::optional<LocalTime> braking = std::nullopt;  // from here on at falling speed until `end`
+    std::vector<model::ToolName> held = {};           // before the motion
+    std::optional<model::ToolChange> change = std::nullopt;
   };
   [[nodiscard]] double path_time(const Run& run, LocalTime now) const;
   [[nodiscard]] model::Duration braking_time() const;

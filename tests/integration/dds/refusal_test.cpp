@@ -99,6 +99,9 @@ TEST(Refusal, Command) {
                                            {"motion.orientation: nan", [](auto& c) { c.motion().orientation().w(kNaN); }},
                                            {"motion.velocity: nan", [](auto& c) { c.motion().velocity(kNaN); }},
                                            {"motion.acceleration: inf", [](auto& c) { c.motion().acceleration(kInfinity); }},
+                                           {"motion.attach: 'a b'", [](auto& c) { c.motion().attach("a b"); }},
+                                           {"motion.detach: 'a/b'", [](auto& c) { c.motion().detach("a/b"); }},
+                                           {"motion.tool_time: 2", [](auto& c) { c.motion().tool_time(static_cast<wire::ToolTime>(2)); }},
                                        });
 }
 
@@ -120,7 +123,7 @@ TEST(Refusal, CommandStatus) {
           {"serves: 'a b'", [](auto& s) { s.serves("a b"); }},
           {"serves: 'xxx", [](auto& s) { s.serves(std::string(65, 'x')); }},
           {"state: 8", [](auto& s) { s.state(static_cast<wire::CommandState>(8)); }},
-          {"reason: 19", [](auto& s) { s.reason(static_cast<wire::ReasonCode>(19)); }},
+          {"reason: 20", [](auto& s) { s.reason(static_cast<wire::ReasonCode>(20)); }},
           {"text: 'two?lines' holds control", [](auto& s) { s.text("two\nlines"); }},
           {"text: '?' holds control characters or is not UTF-8", [](auto& s) { s.text("\xC0"); }},
           {"is too long", [](auto& s) { s.text(std::string(257, 't')); }},
@@ -157,6 +160,8 @@ TEST(Refusal, Dispatch) {
                                             {"latest: before earliest", [](auto& d) { d.latest(d.earliest() - 1); }},
                                             {"earliest: 9223372036854775807", [](auto& d) { d.earliest(wire::FOREVER); }},
                                             {"duration: -1", [](auto& d) { d.duration(-1); }},
+                                            {"holds: 'a b'", [](auto& d) { d.holds()[1] = "a b"; }},
+                                            {"malformed", [](auto& d) { d.holds().resize(33); }},
                                         });
 }
 
@@ -171,6 +176,8 @@ TEST(Refusal, Execution) {
                                              {"uncertainty: -0.1", [](auto& e) { e.uncertainty(-0.1); }},
                                              {"joints[1]: nan", [](auto& e) { e.joints()[1] = kNaN; }},
                                              {"is too long", [](auto& e) { e.text(std::string(257, 't')); }},
+                                             {"holds: ''", [](auto& e) { e.holds()[0] = ""; }},
+                                             {"malformed", [](auto& e) { e.holds().resize(33); }},
                                          });
 }
 
@@ -187,6 +194,8 @@ TEST(Refusal, Posture) {
                                            {"position.x: nan", [](auto& p) { p.position().x(kNaN); }},
                                            {"orientation: 0.0", [](auto& p) { p.orientation(wire::Quaternion{}); }},
                                            {"motion: 'a b'", [](auto& p) { p.motion("a b"); }},
+                                           {"holds: 'a b'", [](auto& p) { p.holds()[0] = "a b"; }},
+                                           {"malformed", [](auto& p) { p.holds().resize(33); }},
                                        });
 }
 
@@ -209,6 +218,8 @@ TEST(Refusal, PlannerState) {
           {"malformed", [](auto& s) { s.robots()[0].refusals().resize(17); }},
           {"refusals.robot: 'a b'", [](auto& s) { s.robots()[1].refusals()[0].robot("a b"); }},
           {"refusals.way: 9", [](auto& s) { s.robots()[1].refusals()[1].way(static_cast<wire::EscapeWay>(9)); }},
+          {"robots.holds: 'a b'", [](auto& s) { s.robots()[1].holds()[1] = "a b"; }},
+          {"malformed", [](auto& s) { s.robots()[1].holds().resize(33); }},
       });
 }
 
@@ -280,6 +291,24 @@ TEST(Malformed, CommandStatusThatClaimsTooMuch) {
   expect_malformed(dds::topics::command_status("cell", kRobot), "interlace::CommandStatus", false, none,
                    {patched(good, conflicts, 17), patched(good, conflicts, 100'000'000), patched(good, conflicts, 0xFFFFFFFF),
                     patched(good, refusals, 17), patched(good, refusals, 100'000'000), patched(good, refusals, 0xFFFFFFFF)});
+}
+
+TEST(Malformed, PostureThatClaimsTooMuch) {
+  dds::PostureMessage bare = posture();
+  bare.posture.holds.clear();
+  const Bytes good = serialised(dds::to_wire(bare));
+  const std::size_t tools = good.size() - 4;  // the sequence comes last
+  expect_malformed(dds::topics::posture("cell", kRobot), "interlace::Posture", true, bare,
+                   {patched(good, tools, 33), patched(good, tools, 100'000'000), patched(good, tools, 0xFFFFFFFF)});
+}
+
+TEST(Malformed, ExecutionThatClaimsTooMuch) {
+  dds::ExecutionMessage bare = execution();
+  bare.report.holds.clear();
+  const Bytes good = serialised(dds::to_wire(bare));
+  const std::size_t tools = good.size() - 4;
+  expect_malformed(dds::topics::execution("cell", kRobot), "interlace::Execution", false, bare,
+                   {patched(good, tools, 33), patched(good, tools, 100'000'000), patched(good, tools, 0xFFFFFFFF)});
 }
 
 TEST(Malformed, PlannerStateThatClaimsTooMuch) {

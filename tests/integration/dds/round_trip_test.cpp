@@ -21,6 +21,11 @@ void expect_same(const model::MotionRequest& sent, const model::MotionRequest& g
   }
   EXPECT_EQ(sent.velocity, got.velocity);
   EXPECT_EQ(sent.acceleration, got.acceleration);
+  ASSERT_EQ(sent.tools.has_value(), got.tools.has_value());
+  if (!sent.tools) return;
+  EXPECT_EQ(sent.tools->attach, got.tools->attach);
+  EXPECT_EQ(sent.tools->detach, got.tools->detach);
+  EXPECT_EQ(sent.tools->when, got.tools->when);
 }
 
 void expect_same(const std::vector<model::Conflict>& sent, const std::vector<model::Conflict>& got) {
@@ -126,6 +131,7 @@ TEST(RoundTrip, Dispatch) {
   EXPECT_EQ(got.earliest, sent.earliest);
   EXPECT_EQ(got.latest, sent.latest);
   EXPECT_EQ(got.duration, sent.duration);
+  EXPECT_EQ(got.holds, sent.holds);
   expect_same(sent.motion, got.motion);
 
   const auto withdrawn = pair.pass(withdrawal());
@@ -159,6 +165,7 @@ TEST(RoundTrip, Execution) {
   EXPECT_EQ(got->report.uncertainty, sent.report.uncertainty);
   EXPECT_EQ(got->report.joints, sent.report.joints);
   EXPECT_EQ(got->report.text, sent.report.text);
+  EXPECT_EQ(got->report.holds, sent.report.holds);
 }
 
 TEST(RoundTrip, Posture) {
@@ -179,6 +186,7 @@ TEST(RoundTrip, Posture) {
   EXPECT_TRUE(got->posture.moving);
   EXPECT_FALSE(got->posture.ready);
   EXPECT_EQ(got->posture.motion.str(), "c-1");
+  EXPECT_EQ(got->posture.holds, sent.posture.holds);
 }
 
 TEST(RoundTrip, PlannerState) {
@@ -207,6 +215,7 @@ TEST(RoundTrip, PlannerState) {
     EXPECT_EQ(got->robots[i].text, sent.robots[i].text);
     expect_same(sent.robots[i].conflicts, got->robots[i].conflicts);
     expect_same(sent.robots[i].refusals, got->robots[i].refusals);
+    EXPECT_EQ(got->robots[i].holds, sent.robots[i].holds);
   }
 }
 
@@ -220,6 +229,7 @@ TEST(RoundTrip, LargestPlannerState) {
     sent.robots.push_back(robot_status("robot-" + std::to_string(r)));
     sent.robots.back().text = std::string(256, 't');
     sent.robots.back().conflicts.assign(16, conflict());
+    sent.robots.back().holds.assign(32, model::ToolName{std::string(64, 't')});
     sent.robots.back().refusals.assign(16, {model::RobotName{std::string(64, 'r')}, model::EscapeWay::home, std::string(256, 'w')});
   }
   const auto got = pair.pass(sent);

@@ -23,11 +23,16 @@ inline model::Instant at(double seconds) {
   return model::at_seconds(seconds);
 }
 
+inline std::vector<model::ToolName> tools() {
+  return {model::ToolName{"long"}, model::ToolName{"box-1"}};
+}
+
 inline dds::CommandMessage linear_command(const std::string& id = "c-1") {
   model::CommandSubmitted c;
   c.id = model::CommandId{id};
   c.robot = kRobot;
-  c.motion = {model::LinearTarget{pose()}, 0.05, 0.2};
+  c.motion = {model::LinearTarget{pose()}, 0.05, 0.2,
+              model::ToolChange{model::ToolName{"long"}, model::ToolName{}, model::ToolTime::completion}};
   c.priority = -3;
   return {c, "tester"};
 }
@@ -80,8 +85,10 @@ inline dds::DispatchMessage execute() {
   d.id = model::CommandId{"c-1"};
   d.robot = kRobot;
   d.attempt = 7;
-  d.motion = {model::JointTarget{joints(0.3)}, 0.1, std::nullopt};
+  d.motion = {model::JointTarget{joints(0.3)}, 0.1, std::nullopt,
+              model::ToolChange{model::ToolName{"short"}, model::ToolName{"long"}, model::ToolTime::start}};
   d.from = joints(-0.5);
+  d.holds = tools();
   d.earliest = at(2.25);
   d.latest = at(2.27);
   d.duration = 2.5;
@@ -97,7 +104,9 @@ inline dds::DispatchMessage heartbeat() {
 }
 
 inline dds::ExecutionMessage execution() {
-  return {42, 99, {model::CommandId{"c-1"}, kRobot, 7, model::ExecutionState::refused, at(2.3), 1e-4, joints(1), "start window missed"}};
+  return {42,
+          99,
+          {model::CommandId{"c-1"}, kRobot, 7, model::ExecutionState::refused, at(2.3), 1e-4, joints(1), "start window missed", tools()}};
 }
 
 inline dds::PostureMessage posture(const model::RobotName& robot = kRobot) {
@@ -110,6 +119,7 @@ inline dds::PostureMessage posture(const model::RobotName& robot = kRobot) {
   p.moving = true;
   p.ready = false;
   p.motion = model::CommandId{"c-1"};
+  p.holds = tools();
   return {0xFEEDFACECAFEBEEF, 99, 42, model::Duration{123'456'789'012}, p};
 }
 
@@ -122,7 +132,8 @@ inline model::RobotStatus robot_status(const std::string& name) {
           "r2 stands there",
           {conflict()},
           refusals(),
-          model::CommandId{"c-0"}};
+          model::CommandId{"c-0"},
+          tools()};
 }
 
 inline model::PlannerState planner_state(const std::string& cell) {

@@ -62,6 +62,20 @@ planning:
   zone: {min: [100, -130, 0], max: [600, 130, 900]}
 )";
 
+const std::string kToolCell = [] {
+  const std::string tools = R"(tools:
+  short:
+    capsules:
+      - {from: [0, 0, 0], to: [0, 0, 60], radius: 30}
+  fork:
+    capsules:
+      - {from: [0, 0, 0], to: [0, 0, 100], radius: 20}
+      - {from: [0, 50, 100], to: [0, 50, 200], radius: 10}
+robots:
+)";
+  return replaced(replaced(kCell, "robots:\n", tools), "    controller:", "    holds: [short]\n    controller:");
+}();
+
 const std::string kProgram = R"(interlace: 1
 units: {length: mm, angle: deg}
 repeat: 2

@@ -12,6 +12,9 @@ extern const std::string kCell;
 /// A program file for it, likewise.
 extern const std::string kProgram;
 
+/// The cell file with tools, of which r1 holds one.
+extern const std::string kToolCell;
+
 /// `text` with the first occurrence of `from` replaced by `to`; throws when there is none, so that no test passes for nothing.
 std::string replaced(const std::string& text, const std::string& from, const std::string& to);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -54,6 +55,7 @@ class Desk {
     p.moving = moving;
     p.ready = ready;
     p.motion = model::CommandId{motion};
+    p.holds = hands[robot];
     keep(planner.on(p, now));
   }
   void submit(const std::string& id, const std::string& robot, const model::MotionRequest& motion) {
@@ -79,6 +81,7 @@ class Desk {
     e.at = now;
     e.joints = q;
     e.text = text;
+    e.holds = hands[d.robot.str()];
     keep(planner.on(e, now));
   }
   void pass(core::Duration time) {
@@ -155,6 +158,7 @@ class Desk {
   std::shared_ptr<const model::Cell> cell;
   core::Planner planner;
   Instant now{};
+  std::map<std::string, std::vector<model::ToolName>> hands;  ///< what each robot says it holds
   std::vector<model::Dispatch> dispatches;
   std::vector<model::CommandStatus> statuses;
   std::vector<model::Withdrawal> withdrawals;

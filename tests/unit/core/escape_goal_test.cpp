@@ -138,12 +138,13 @@ TEST(ReachableGoal, IsOnTheBorderAndKeepsTheOrientation) {
     for (int axis = 0; axis < 3; ++axis) {
       for (const double sign : {1.0, -1.0}) {
         const Vector3 unit = sign * Vector3::Unit(axis);
-        const auto goal = core::to_reachable_goal(*cell, 0, from, unit);
+        const auto goal = core::to_reachable_goal(*cell, 0, cell->robots[0], from, unit);
         if (!goal.motion) {
           ++none;
           model::Pose near = X_WT;
           near.translation() += 2 * kBorder * unit;
-          EXPECT_FALSE(core::admit(*strict, 0, from, line_to(near))) << "posture " << i << ", axis " << axis << ", " << sign;
+          EXPECT_FALSE(core::admit(*strict, 0, strict->robots[0], from, line_to(near)))
+              << "posture " << i << ", axis " << axis << ", " << sign;
           continue;
         }
         ++goals;
@@ -153,10 +154,10 @@ TEST(ReachableGoal, IsOnTheBorderAndKeepsTheOrientation) {
         EXPECT_LT((way - way.dot(unit) * unit).norm(), 1e-9) << "along the axis";
         EXPECT_GT(way.dot(unit), 0);
         EXPECT_LT((X_WG.linear() - X_WT.linear()).norm(), 1e-9) << "orientation kept";
-        EXPECT_TRUE(core::admit(*cell, 0, from, goal.request)) << "the goal itself";
+        EXPECT_TRUE(core::admit(*cell, 0, cell->robots[0], from, goal.request)) << "the goal itself";
         model::Pose beyond = X_WG;
         beyond.translation() += kBorder * unit;
-        EXPECT_FALSE(core::admit(*strict, 0, from, line_to(beyond)))
+        EXPECT_FALSE(core::admit(*strict, 0, strict->robots[0], from, line_to(beyond)))
             << "posture " << i << ", axis " << axis << ", " << sign << ": " << way.dot(unit) << " m and " << kBorder << " m more";
       }
     }
@@ -175,13 +176,13 @@ TEST(ReachableGoal, StopsBeforeTheBaseOfANeighbour) {
   const auto posture = model::preferred_posture(r1.model, r1.X_WB.inverse() * pose_mm(150, 100, 200));
   ASSERT_TRUE(posture);
   const model::Joints& from = *posture;
-  const auto goal = core::to_reachable_goal(*cell, 0, from, -Vector3::UnitY());
+  const auto goal = core::to_reachable_goal(*cell, 0, cell->robots[0], from, -Vector3::UnitY());
   ASSERT_TRUE(goal.motion);
   const Vector3 end = goal.motion->motion().tcp(goal.motion->motion().duration()).translation();
   model::Pose beyond = pose_mm(0, 0, 0);
   beyond.linear() = goal.motion->motion().tcp(0).linear();
   beyond.translation() = end - 5e-3 * Vector3::UnitY();
-  const auto refused = core::admit(*cell, 0, from, line_to(beyond));
+  const auto refused = core::admit(*cell, 0, cell->robots[0], from, line_to(beyond));
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().reason, model::Reason::base_collision) << refused.error().text;
 }

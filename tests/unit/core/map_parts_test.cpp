@@ -89,8 +89,8 @@ TEST(CollisionMap, ShowsTheTravellingLengthOfTheCommandedRobot) {
 TEST(Reach, OfANeighbourIsEnteredAndOfAFarRobotIsNot) {
   const auto cell = experiment_cell(true);
   const auto motion = sampled(cell->robots[0], cell->robots[0].start, pose_mm(300, 250, 330));
-  EXPECT_TRUE(core::enters_reach(*motion, cell->robots[1]));
-  EXPECT_FALSE(core::enters_reach(*motion, cell->robots[2]));
+  EXPECT_TRUE(core::enters_reach(*motion, core::reachable_volume(cell->robots[1])));
+  EXPECT_FALSE(core::enters_reach(*motion, core::reachable_volume(cell->robots[2])));
 }
 
 /// Nothing a robot can do takes any of its points out of the reach that a lost robot is given.
@@ -107,7 +107,7 @@ TEST(Reach, HoldsEveryPostureOfAnyArm) {
     ball.self_pairs.clear();
     const model::Robot probe = robot_at("probe", ball, touched.a + touched.radius * (random_rotation(seed) * model::Vector3::UnitX()));
     SampledMotion still{model::Motion::rest(probe, model::Joints::Zero()), 0.01};
-    ASSERT_TRUE(core::enters_reach(still, other)) << "case " << i;
+    ASSERT_TRUE(core::enters_reach(still, core::reachable_volume(other))) << "case " << i;
   }
 }
 

@@ -29,7 +29,7 @@ struct Tangle {
 
   std::optional<std::vector<UntangleStep>> search(model::RobotIndex robot, const model::MotionRequest& request) {
     const auto& from = views[robot].motion()->motion().to();
-    auto motion = core::admit(*cell, robot, from, request);
+    auto motion = core::admit(*cell, robot, cell->robots[robot], from, request);
     EXPECT_TRUE(motion);
     if (!motion) return std::nullopt;
     return core::untangle(*cell, neighbourhood, views, neighbourhood.around(robot), {robot, *motion, {}}, request, *strategy, {}, maps);
@@ -38,7 +38,7 @@ struct Tangle {
   /// Carries the steps out one by one: each must be clear of all that stand, and in the end so must `request`.
   void expect_carried_out(const std::vector<UntangleStep>& steps, model::RobotIndex robot, const model::MotionRequest& request) {
     const auto go = [&](model::RobotIndex i, const model::MotionRequest& what) {
-      auto motion = core::admit(*cell, i, views[i].motion()->motion().to(), what);
+      auto motion = core::admit(*cell, i, cell->robots[i], views[i].motion()->motion().to(), what);
       ASSERT_TRUE(motion) << motion.error().text;
       for (model::RobotIndex other = 0; other < views.size(); ++other) {
         if (other == i) continue;
@@ -88,7 +88,7 @@ TEST(Untangle, WhoeverIsInTheWayOfTheOneInTheWayLeavesFirst) {
   tangle.views[1].trail = {joints_to(t.aside)};
   // r3's hand is where r2's hand would go back to.
   const model::Robot& r3 = t.cell->robots[2];
-  const auto there = core::admit(*t.cell, 2, r3.start, line_to(pose_mm(345, -560, 300)));
+  const auto there = core::admit(*t.cell, 2, t.cell->robots[2], r3.start, line_to(pose_mm(345, -560, 300)));
   ASSERT_TRUE(there) << there.error().text;
   tangle.stand(2, (*there)->motion().to());
   tangle.views[2].immovable = "its controller is not ready";

@@ -84,6 +84,20 @@ class ExecutorTest : public ::testing::Test {
   Executor executor_{RobotName{"r1"}, capabilities()};
 };
 
+TEST_F(ExecutorTest, RefusesAMotionThatWasPlannedWithoutWhatTheRobotMayHold) {
+  ControllerState holding = state(1);
+  holding.holds = {model::ToolName{"long"}};
+  static_cast<void>(executor_.on(holding, when(1)));
+  Dispatch d = dispatch("a", 1, 2);
+  d.holds = {model::ToolName{"short"}};
+  const Actions refused = executor_.on(d, when(1));
+  expect_refused(refused, "may hold 'long', the motion was planned without it");
+  EXPECT_EQ(refused.reports[0].holds, holding.holds) << "the planner hears what is held";
+  d.attempt = 1;
+  d.holds.emplace_back("long");
+  EXPECT_TRUE(executor_.on(d, when(1)).start) << "planned with more than there is, which is safe";
+}
+
 TEST_F(ExecutorTest, StartsAtEarliestAndTellsTheWholeStory) {
   static_cast<void>(look(0));
   const Actions accepted = executor_.on(dispatch("a", 1, 2), when(0));

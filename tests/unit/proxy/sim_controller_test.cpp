@@ -53,6 +53,39 @@ TEST_F(SimControllerTest, BeginsAndEndsExactly) {
   EXPECT_TRUE(controller_.execute(line_to({0.45, 0, 0.3}), 8, local(12))) << "the next one may begin at the very end";
 }
 
+class SimControllerTools : public SimControllerTest {
+ protected:
+  static model::MotionRequest with(const std::string& attach, const std::string& detach, model::ToolTime when) {
+    model::MotionRequest request = line_to(kThere);
+    request.tools = model::ToolChange{model::ToolName{attach}, model::ToolName{detach}, when};
+    return request;
+  }
+  using Tools = std::vector<model::ToolName>;
+  const Tools none_, long_{model::ToolName{"long"}};
+};
+
+TEST_F(SimControllerTools, AreTakenWhereTheCommandSaysSo) {
+  ASSERT_TRUE(controller_.execute(with("long", "", model::ToolTime::completion), 1, local(10)));
+  EXPECT_EQ(controller_.observe(local(12) - 1ns).holds, none_);
+  EXPECT_EQ(controller_.observe(local(12)).holds, long_);
+  ASSERT_TRUE(controller_.execute(with("", "long", model::ToolTime::start), 2, local(20)));
+  EXPECT_EQ(controller_.observe(local(20)).holds, none_);
+}
+
+TEST_F(SimControllerTools, AreNotTakenByAMotionThatDoesNotArrive) {
+  controller_.fail_next(0.5, "stuck");
+  ASSERT_TRUE(controller_.execute(with("long", "", model::ToolTime::completion), 1, local(10)));
+  EXPECT_EQ(controller_.observe(local(30)).holds, none_);
+}
+
+TEST_F(SimControllerTools, ThatCannotBeTakenOrLeftAreRefused) {
+  EXPECT_EQ(controller_.execute(with("", "long", model::ToolTime::start), 1, local(10)).error(), "there is no long in its hand to leave");
+  robot_.holds = long_;
+  SimController holding{robot_};
+  EXPECT_EQ(holding.observe(local(0)).holds, long_);
+  EXPECT_EQ(holding.execute(with("long", "", model::ToolTime::start), 1, local(10)).error(), "long is in its hand already");
+}
+
 TEST_F(SimControllerTest, LatencyAndSpeedErrorStayInTheirBoundsAndRepeatWithTheSeed) {
   robot_.controller = {0.02, 0.01, 0.05};
   SimController a{robot_, {Duration{0}, true, 42}};

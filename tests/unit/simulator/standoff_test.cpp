@@ -119,7 +119,7 @@ TEST(Standoff, BlockerNearTheBorder) {
     const auto& escape = escapes.front();
     EXPECT_EQ(escape.robot, "r2");
     EXPECT_NE(escape.text.find(" goes -y "), std::string::npos) << escape.text;
-    const auto whole = core::to_reachable_goal(*cell, 1, cell->robots[1].start, -Vector3::UnitY());
+    const auto whole = core::to_reachable_goal(*cell, 1, cell->robots[1], cell->robots[1].start, -Vector3::UnitY());
     ASSERT_TRUE(whole.motion);
     const double free = free_length(*cell, 1, whole.motion->motion(), 2, cell->robots[2].start);
     EXPECT_LT(free, 0.2) << "the border itself is no safe goal: r3 stands in the way";
@@ -176,7 +176,7 @@ TEST(Standoff, CascadeOfTwo) {
   EXPECT_EQ(escapes[0].robot, "r3") << s.story();
   EXPECT_EQ(escapes[1].robot, "r2") << s.story();
   for (const auto& escape : escapes) EXPECT_EQ(escape.serves, "r1-1");
-  const auto r2_motion = core::to_reachable_goal(*cell, 1, escapes[1].from, escapes[1].way().normalized());
+  const auto r2_motion = core::to_reachable_goal(*cell, 1, cell->robots[1], escapes[1].from, escapes[1].way().normalized());
   ASSERT_TRUE(r2_motion.motion);
   EXPECT_TRUE(touches(*cell, 1, r2_motion.motion->motion(), 2, escapes[0].from)) << "r3 was in the way of r2's escape";
 }
@@ -274,7 +274,7 @@ TEST(Standoff, CorridorWhereOnlyRetreatWorks) {
   EXPECT_LT((escapes.front().to - t.aside).cwiseAbs().maxCoeff(), 1e-6);
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {1.0, -1.0}) {
-      const auto goal = core::to_reachable_goal(*t.cell, 1, t.in_the_way, sign * Vector3::Unit(axis));
+      const auto goal = core::to_reachable_goal(*t.cell, 1, t.cell->robots[1], t.in_the_way, sign * Vector3::Unit(axis));
       EXPECT_FALSE(goal.motion) << "a way out along axis " << axis << ", " << sign;
     }
   }
@@ -337,7 +337,7 @@ TEST(Standoff, ACommandOnlyPossibleFromBeforeTheEscapeIsServedByTheWayBack) {
   const model::Robot& r2 = t.cell->robots[1];
   model::Pose up = r2.X_WB * model::tcp_pose(r2.model, t.in_the_way);
   up.translation().z() += 0.01;
-  EXPECT_FALSE(core::admit(*t.cell, 1, t.aside, line_to(up))) << "not possible from aside";
+  EXPECT_FALSE(core::admit(*t.cell, 1, t.cell->robots[1], t.aside, line_to(up))) << "not possible from aside";
   Standoff s{t.cell};
   s.command("r2", joints_to(t.in_the_way)).command("r1", Turnstile::across(), 10).command("r2", line_to(up), 20).run();
   s.expect_safe_and_served();

@@ -190,5 +190,30 @@ TEST(TraceCheck, FindsAPlantedCollision) {
   EXPECT_LE(check.measured(), 4U) << "standing robots are not measured again";
 }
 
+TEST(TraceCheck, AndTheObserverSeeWhatIsHeld) {
+  auto cell = *test::deployed_cell("exp-4-2");
+  cell.tools = {
+      {model::ToolName{"pole"},
+       {{"pole", 6, {0, 0, 0}, {0.6, 0, 0}, 0.02}, {"pole", 6, {0, 0, 0}, {0, 0.6, 0}, 0.02}, {"pole", 6, {0, 0, 0}, {0, -0.6, 0}, 0.02}}}};
+  TraceCheck check{cell};
+  monitor::ClearanceObserver observer{cell, kStep, 1e9};
+  const std::vector<Joints> standing{cell.robots[0].start, cell.robots[1].start};
+  const auto pole = model::ToolSet::of(0);
+  for (std::size_t k = 0; k < 30; ++k) {
+    const double t = kStep * static_cast<double>(k);
+    const bool held = k >= 10 && k < 20;
+    if (k == 10 || k == 20) check.hold(0, held ? pole : model::ToolSet{});
+    check.step(t, standing);
+    for (std::size_t i = 0; i < 2; ++i) observer.on_posture(i, t, standing[i], i == 0 && held ? pole : model::ToolSet{});
+  }
+  EXPECT_EQ(check.collisions(), 1U);
+  EXPECT_EQ(check.least().link_a, "pole");
+  EXPECT_DOUBLE_EQ(check.least().t, 0.010);
+  EXPECT_EQ(observer.contacts(), 1U);
+  EXPECT_EQ(observer.least()->link_a, "pole");
+  EXPECT_NEAR(observer.least()->least, check.least().clearance, 1e-9);
+  EXPECT_GT(check.least().clearance, -0.3);
+}
+
 }  // namespace
 }  // namespace interlace::sim
