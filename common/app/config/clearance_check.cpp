@@ -64,7 +64,7 @@ bool check_pair(const Standing& a, const Standing& b, double margin, const Units
 
 bool check_fixture(const Standing& s, const model::Fixture& fixture, double margin, const Units& units) {
   for (std::size_t i = 0; i < s.capsules.size(); ++i) {
-    if (s.robot->model.capsules[i].link == 0) continue;  // it stands on some of them
+    if (s.robot.model.capsules[i].link == 0) continue;  // it stands on some of them
     const double d = model::clearance(s.capsules[i], fixture);
     if (d > margin) continue;
     s.field->refuse(fmt::format("in collision with fixture {}: clearance of {} would be {}, expected > {}", fixture.name, s.link(i),
