@@ -15,7 +15,7 @@ struct MotionWords {
   std::string move;            ///< linear | joint
   std::vector<double> values;  ///< linear: x y z roll pitch yaw of the TCP in the world frame; joint: six angles, base to flange
   std::optional<double> velocity, acceleration;  ///< of the TCP, per second and per second²
-  std::string attach, detach;                    ///< names of tools to take and to leave; empty: none
+  std::string attach = {}, detach = {};          ///< names of tools to take and to leave; empty: none
   std::string when = "completion";               ///< start | completion
 };
 

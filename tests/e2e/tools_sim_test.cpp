@@ -19,7 +19,8 @@ class ToolsInVirtualTime : public ::testing::Test {
   }
   [[nodiscard]] nlohmann::json report() const { return nlohmann::json::parse(read_text(scratch_.path("report.json"))).at(0); }
   [[nodiscard]] nlohmann::json command(const std::string& id) const {
-    for (const auto& c : report()["commands"]) {
+    const auto all = report();
+    for (const auto& c : all["commands"]) {
       if (c["id"] == id) return c;
     }
     ADD_FAILURE() << "no command " << id;
@@ -31,8 +32,9 @@ class ToolsInVirtualTime : public ::testing::Test {
 TEST_F(ToolsInVirtualTime, TheShortOnePassesAtOnce) {
   const Outcome o = simulate("short");
   EXPECT_EQ(o.exit_code, 0) << o;
-  EXPECT_EQ(report()["completed"], 6);
-  for (const auto& c : report()["commands"]) EXPECT_LT(c["delay_s"], 0.005) << c;
+  const auto r = report();
+  EXPECT_EQ(r["completed"], 6);
+  for (const auto& c : r["commands"]) EXPECT_LT(c["delay_s"], 0.005) << c;
 }
 
 TEST_F(ToolsInVirtualTime, TheLongOneWaitsAndSaysForWhat) {

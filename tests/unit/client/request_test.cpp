@@ -38,6 +38,21 @@ TEST(MakeRequest, JointsAreAnglesOnly) {
   EXPECT_NEAR(q[3], model::kPi, 1e-12);
 }
 
+TEST(MakeRequest, SaysWhatIsTakenAndLeftAndWhen) {
+  MotionWords words{"linear", {300, -250, 330, 0, 0, 90}, {}, {}};
+  EXPECT_FALSE(make_request(words, kMmDeg)->tools);
+  words.attach = "long";
+  ASSERT_TRUE(make_request(words, kMmDeg)->tools);
+  EXPECT_EQ(make_request(words, kMmDeg)->tools->attach, model::ToolName{"long"});
+  EXPECT_EQ(make_request(words, kMmDeg)->tools->when, model::ToolTime::completion);
+  words.detach = "short";
+  words.when = "start";
+  EXPECT_EQ(make_request(words, kMmDeg)->tools->detach, model::ToolName{"short"});
+  EXPECT_EQ(make_request(words, kMmDeg)->tools->when, model::ToolTime::start);
+  words.attach = "a/b";
+  EXPECT_NE(make_request(words, kMmDeg).error().find("--attach: found \"a/b\""), std::string::npos);
+}
+
 TEST(MakeRequest, NamesTheNumberThatIsWrong) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
