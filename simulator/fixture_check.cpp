@@ -34,13 +34,14 @@ struct GeometryOf {
   }
 };
 
-fcl::CollisionObjectd object_of(const model::Capsule& c) {
+/// The axis of a capsule.
+fcl::CollisionObjectd axis_of(const model::Capsule& c) {
   const double length = (c.b - c.a).norm();
   model::Pose X_WC = model::Pose::Identity();
   X_WC.translation() = (c.a + c.b) / 2;
-  if (length <= 0) return {std::make_shared<fcl::Sphered>(c.radius), X_WC};
+  if (length <= 0) return {std::make_shared<fcl::Sphered>(0.0), X_WC};
   X_WC.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), c.b - c.a).toRotationMatrix();
-  return {std::make_shared<fcl::Capsuled>(c.radius, length), X_WC};
+  return {std::make_shared<fcl::Capsuled>(0.0, length), X_WC};
 }
 
 }  // namespace
@@ -59,15 +60,15 @@ double FixtureCheck::clearance(const model::Capsule& capsule, std::size_t fixtur
     const double offset = plane->offset + normal.dot(f.X_WO.translation());
     return std::max(std::min(normal.dot(capsule.a), normal.dot(capsule.b)) - offset, 0.0) - capsule.radius;
   }
-  const fcl::CollisionObjectd body = object_of(capsule);
-  const double boxes = body.getAABB().distance(objects_[fixture]->getAABB());
+  const fcl::CollisionObjectd axis = axis_of(capsule);
+  const double boxes = axis.getAABB().distance(objects_[fixture]->getAABB()) - capsule.radius;
   if (boxes > enough) return boxes;
   const fcl::DistanceRequestd request{false, false, 0, 0, 1e-9};
   fcl::DistanceResultd result;
-  fcl::distance(&body, objects_[fixture].get(), request, result);
+  fcl::distance(&axis, objects_[fixture].get(), request, result);
   const auto* mesh = std::get_if<model::MeshShape>(&f.shape);
   const bool inside = mesh != nullptr && mesh->mesh->solid() && model::surrounds(*mesh->mesh, f.X_WO.inverse() * capsule.a);
-  return result.min_distance <= 0 || inside ? -capsule.radius : result.min_distance;
+  return (inside ? 0 : std::max(result.min_distance, 0.0)) - capsule.radius;
 }
 
 }  // namespace interlace::sim

@@ -19,8 +19,8 @@ class FixtureCheck {
 
   explicit FixtureCheck(const std::vector<model::Fixture>& fixtures);
 
-  /// Clearance [m] of `capsule` from a fixture, by its index; ≤ 0 is contact, and a contact is as deep as the radius. What is above
-  /// `enough` may come out as anything above it.
+  /// Clearance [m] of `capsule` from a fixture, by its index: that of its axis less the radius; ≤ 0 is contact, at most as deep as the
+  /// radius. What is above `enough` may come out as anything above it.
   [[nodiscard]] double clearance(const model::Capsule& capsule, std::size_t fixture, double enough) const;
 
  private:

@@ -62,7 +62,8 @@ TraceCheck::TraceCheck(const model::Cell& cell) : cell_(cell), held_(cell), arms
       pair.b = j;
       pairs_.push_back(pair);
     }
-    for (std::size_t f = 0; f < cell.fixtures.size(); ++f) places_.push_back({i, f});
+    for (std::size_t f = 0; f < cell.fixtures.size(); ++f)
+      places_.push_back({i, f, std::vector<Measured>(arms_[i].body->model.capsules.size())});
   }
 }
 
@@ -75,7 +76,9 @@ void TraceCheck::hold(model::RobotIndex robot, model::ToolSet tools) {
     if (pair.a == robot || pair.b == robot) pair.travelled_a = -1;  // to be measured anew
   }
   for (Place& place : places_) {
-    if (place.robot == robot) place.travelled = -1;
+    if (place.robot != robot) continue;
+    place.travelled = -1;
+    place.bodies.assign(arm.body->model.capsules.size(), {});
   }
 }
 
@@ -151,31 +154,33 @@ void TraceCheck::measure(double t, Pair& pair) {
 
 void TraceCheck::measure(double t, Place& place) {
   constexpr double kBeyond = 0.02;  // [m] that a lower bound must be beyond what matters: more often exact, and less often measured
-  ++measured_;
   const auto& capsules = arms_[place.robot].body->model.capsules;
   const auto& own = bodies(place.robot);
-  const double enough = std::max(place.least, 0.0) + kBeyond;
-  double least = std::numeric_limits<double>::infinity();
-  std::size_t least_i = 0;
+  const double matters = std::max(place.least, 0.0);
+  bool touches = false;
+  place.clearance = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (capsules[i].link == 0) continue;  // it never moves, and stands on some of them
-    const double d = fixtures_.clearance(own[i], place.fixture, std::min(enough, least));
-    if (d >= least) continue;
-    least = d;
-    least_i = i;
+    Measured& last = place.bodies[i];
+    const double moved = std::max((own[i].a - last.a).norm(), (own[i].b - last.b).norm()) + kRounding;
+    if (last.clearance - moved > matters) {
+      place.clearance = std::min(place.clearance, last.clearance - moved);
+      continue;
+    }
+    ++measured_;
+    const double d = fixtures_.clearance(own[i], place.fixture, matters + kBeyond);
+    last = {own[i].a, own[i].b, d};
+    place.clearance = std::min(place.clearance, d);
+    place.least = std::min(place.least, d);
+    touches = touches || d <= 0;
+    if (d < least_.clearance) least_ = {d, t, place.robot, place.robot, capsules[i].name, "fixture " + cell_.fixtures[place.fixture].name};
   }
-  place.clearance = least;
   place.travelled = arms_[place.robot].travelled;
-  const bool touches = least <= 0;
   if (touches && !place.touching) {
     ++collisions_;
     ++fixture_contacts_;
   }
   place.touching = touches;
-  if (least > enough) return;  // only a bound
-  place.least = std::min(place.least, least);
-  if (least >= least_.clearance) return;
-  least_ = {least, t, place.robot, place.robot, capsules[least_i].name, "fixture " + cell_.fixtures[place.fixture].name};
 }
 
 }  // namespace interlace::sim

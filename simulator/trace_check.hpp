@@ -25,7 +25,8 @@ struct Nearest {
 ///
 /// Work is left out only where a bound proves that it changes nothing: since a pair was last measured, no point of a robot has moved
 /// farther than the sum over its joints of |Δq| times the joint's longest lever. While that cannot bring the pair below the least
-/// clearance it has had, nor to contact, nothing is placed and nothing measured. Not thread-safe. The cell must outlive it.
+/// clearance it has had, nor to contact, nothing is placed and nothing measured. A body near a fixture is placed, and measured only when
+/// its ends have gone far enough since it last was. Not thread-safe. The cell must outlive it.
 class TraceCheck {
  public:
   explicit TraceCheck(const model::Cell& cell);
@@ -58,10 +59,15 @@ class TraceCheck {
     double least = std::numeric_limits<double>::infinity();
     bool touching = false;
   };
+  struct Measured {
+    model::Vector3 a, b;                                          // ends of the body's axis when it was last measured
+    double clearance = -std::numeric_limits<double>::infinity();  // then: at least this [m]
+  };
   struct Place {
     model::RobotIndex robot;
     std::size_t fixture;
-    double clearance = 0;   // when last measured: at least this [m]
+    std::vector<Measured> bodies;
+    double clearance = 0;   // when last looked at: at least this [m]
     double travelled = -1;  // then; before the first measurement negative
     double least = std::numeric_limits<double>::infinity();
     bool touching = false;

@@ -10,9 +10,10 @@
 namespace interlace::sim {
 namespace {
 
-CampaignOptions campaign(const std::string& strategy, std::size_t commands) {
+CampaignOptions campaign(const std::string& strategy, std::size_t commands, const std::string& kind = "pattern") {
   CampaignOptions options;
-  for (const char* name : {"pattern-triangle-3", "pattern-serial-4", "pattern-square-4"}) {
+  for (const char* pattern : {"-triangle-3", "-serial-4", "-square-4"}) {
+    const std::string name = kind + pattern;
     options.cells.push_back({name, test::deployed_cell(name)});
   }
   options.strategy = strategy;
@@ -46,6 +47,17 @@ TEST(Campaign, WithThePlannerNothingTouchesAndNothingIsLost) {
     EXPECT_EQ(row.total.fruitless_rounds, 0U) << row.cell;
     EXPECT_EQ(row.total.warnings, 0U) << row.cell;
     EXPECT_EQ(row.total.contradicted, 0U) << row.cell;
+    EXPECT_GT(row.nearest.clearance, 0) << row.cell;
+  }
+}
+
+TEST(Campaign, AmongFixturesNothingTouchesThemEither) {
+  EXPECT_GT(collisions(run_campaign(campaign("direct", 100, "fixtures"))), 0U) << "the robots keep to themselves: this would show nothing";
+  const auto report = run_campaign(campaign("event", 150, "fixtures"));
+  EXPECT_EQ(collisions(report), 0U) << summary(report, 10);
+  for (const auto& row : report.rows) {
+    EXPECT_EQ(row.total.completed, row.total.submitted) << row.cell << '\n' << summary(report, 10);
+    EXPECT_EQ(row.total.fruitless_rounds, 0U) << row.cell;
     EXPECT_GT(row.nearest.clearance, 0) << row.cell;
   }
 }

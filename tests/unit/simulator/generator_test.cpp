@@ -52,7 +52,9 @@ double least_clearance(const model::Cell& cell, std::size_t robot, const model::
     }
     for (std::size_t i = 0; i < own.size(); ++i) {
       if (cell.robots[robot].model.capsules[i].link == 0) continue;
-      for (const auto& fixture : cell.fixtures) least = std::min(least, model::clearance(own[i], fixture));
+      for (const auto& fixture : cell.fixtures) {
+        if (model::clearance_lower_bound(own[i], fixture) < least) least = std::min(least, model::clearance(own[i], fixture));
+      }
     }
   }
   return least;
