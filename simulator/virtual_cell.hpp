@@ -29,8 +29,8 @@ struct VirtualOptions {
   std::function<void(double, const std::vector<model::Joints>&)> on_postures;  ///< every check_period: time [s], all robots [rad]
   /// What a robot holds, before the first posture and the first after each change.
   std::function<void(model::RobotIndex, model::ToolSet)> on_tools;
-  std::function<void(const std::vector<double>&)> on_map_builds;               ///< at the end: what each map took [s]; needs a stopwatch
-  core::MapStore::Listener on_map;                                             ///< before each map is built
+  std::function<void(const std::vector<double>&)> on_map_builds;    ///< at the end: what each map took [s]; needs a stopwatch
+  core::MapStore::Listener on_map;                                  ///< before each map is built
   std::function<void(double, const core::Decisions&)> on_decision;  ///< each call of the planner: what it took [s], 0 without a stopwatch
   std::function<void(const core::MapStatistics&)> on_maps;          ///< at the end
 };
