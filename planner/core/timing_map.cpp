@@ -194,7 +194,7 @@ TimingMap build_timing_map(SampledMotion& commanded, SampledMotion& moving, doub
   TimingMap map;
   map.commanded_duration = commanded.motion().duration();
   map.moving_duration = moving.motion().duration();
-  Subdivision subdivision{map, margin};
+  Subdivision subdivision{map, margin + commanded.robot().controller.path_error + moving.robot().controller.path_error};
   const double end = map.commanded_duration;
   const double other_end = map.moving_duration;
   SampledMotion& ended = commanded.at_end();

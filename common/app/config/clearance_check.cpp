@@ -64,7 +64,10 @@ bool check_all(const std::vector<Standing>& standing, double margin, const Units
   bool clear = true;
   for (const auto& s : standing) clear = check_self(s, units) && clear;
   for (std::size_t i = 0; i < standing.size(); ++i) {
-    for (std::size_t j = i + 1; j < standing.size(); ++j) clear = check_pair(standing[i], standing[j], margin, units) && clear;
+    for (std::size_t j = i + 1; j < standing.size(); ++j) {
+      const double both = standing[i].robot->controller.path_error + standing[j].robot->controller.path_error;
+      clear = check_pair(standing[i], standing[j], margin + both, units) && clear;
+    }
   }
   return clear;
 }

@@ -78,6 +78,7 @@ void write(const model::Robot& robot, Canonical& out) {
   out.number(robot.controller.start_latency);
   out.number(robot.controller.start_jitter);
   out.number(robot.controller.speed_error);
+  out.number(robot.controller.path_error);
 }
 
 std::uint64_t fnv1a(std::string_view text) {

@@ -69,6 +69,28 @@ TEST(SampledMotion, StandingHasOnePieceThatDoesNotMove) {
   EXPECT_EQ(&still.at_end(), &still);
 }
 
+/// A robot that may leave its path is kept at a distance by as much.
+TEST(TimingMap, PathErrorsWidenTheMargin) {
+  const auto cell = experiment_cell();
+  auto careless = *cell;
+  careless.robots[0].controller.path_error = 0.010;
+  careless.robots[1].controller.path_error = 0.005;
+  const auto map_of = [](const model::Cell& c, double margin) {
+    const auto a = sampled(c.robots[0], c.robots[0].start, pose_mm(350, 0, 200));
+    const auto b = sampled(c.robots[1], c.robots[1].start, pose_mm(350, 0, 200));
+    return core::build_timing_map(*a, *b, margin);
+  };
+  const auto with_errors = map_of(careless, 0.002);
+  const auto with_margin = map_of(*cell, 0.017);
+  EXPECT_GT(with_errors.blocked.size(), 0U);
+  ASSERT_EQ(with_errors.blocked.size(), with_margin.blocked.size());
+  for (std::size_t i = 0; i < with_errors.blocked.size(); ++i) {
+    EXPECT_EQ(with_errors.blocked[i].t0, with_margin.blocked[i].t0);
+    EXPECT_EQ(with_errors.blocked[i].tau1, with_margin.blocked[i].tau1);
+  }
+  EXPECT_GT(core::reachable_volume(careless.robots[0]).radius, core::reachable_volume(cell->robots[0]).radius + 0.0099);
+}
+
 TEST(TimingMap, OfTwoThatStandTogetherBlocksForEver) {
   const auto cell = experiment_cell();
   const auto in = sampled(cell->robots[1], cell->robots[1].start, pose_mm(350, 0, 200));
