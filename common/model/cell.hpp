@@ -25,6 +25,7 @@ struct ControllerTraits {
   double start_latency = 0;  ///< mean time from the command to the first movement [s]
   double start_jitter = 0;   ///< largest deviation from that mean [s]
   double speed_error = 0;    ///< largest relative deviation of the duration, 0.01 = 1 %
+  double path_error = 0;     ///< largest distance of any point of the robot from where its path has it [m]
 
   /// Latest start after the command [s].
   [[nodiscard]] double latest_start() const { return start_latency + start_jitter; }

@@ -56,7 +56,8 @@ class Motion {
   /// Writes one bound per capsule to `out`. Proof: docs/certificate.md.
   void displacement(double t0, double centre, double t1, std::vector<double>& out) const;
 
-  /// The same for an arm whose placement at `centre` is known already, without allocation; `out` has room for all capsules.
+  /// The same for an arm whose placement at `centre` is known already and the capsules it asks for, without allocation; `out` has room for
+  /// all capsules.
   void displacement(double t0, double centre, double t1, const PlacedArm& at_centre, double* out) const;
 
  private:

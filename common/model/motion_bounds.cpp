@@ -69,26 +69,18 @@ class HandBound {
 class LineBound {
  public:
   LineBound(const RobotModel& model, const Branch& branch, const LinkFrames& X, const HandSweep& hand)
-      : X_(X), p_BW_(X[4].translation()), hand_(hand, X[6] * model.X_FT.translation()), wrist_(hand_(p_BW_)) {
-    const WristPace translation{hand.direction, 0, hand_.way()};
-    WristPace rotation;
-    if (hand_.turn() > 0) {
-      const Vector3 swing = hand_.swing(p_BW_);
-      rotation = {swing, std::min(2.0, hand_.turn()) * swing.norm(), hand_.turn()};
-    }
-    rates_ = ArmRates::inside(model.kinematics, X, {translation, rotation});
-    if (rates_ && rates_->coarseness() < kCoarse) {
-      forearm_turn_ = rates_->forearm_turn();
-      return;
-    }
-    sweep_ = joint_sweep(model.kinematics, branch, X, wrist_sweep(hand, p_BW_ - X[6] * model.X_FT.translation()), hand_.turn());
-    forearm_turn_ = (*sweep_)[0] + (*sweep_)[1] + (*sweep_)[2];
-    if (rates_) forearm_turn_ = std::min(forearm_turn_, rates_->forearm_turn());
-  }
+      : model_(model),
+        branch_(branch),
+        X_(X),
+        sweep_of_hand_(hand),
+        p_BW_(X[4].translation()),
+        p_BT_(X[6] * model.X_FT.translation()),
+        hand_(hand, p_BT_) {}
 
-  [[nodiscard]] double operator()(std::size_t link, const Vector3& p) const {
+  [[nodiscard]] double operator()(std::size_t link, const Vector3& p) {
     if (link == 0) return 0;
     if (link == 6) return hand_(p);
+    if (!arm_known_) look_at_arm();
     double bound = sweep_ ? by_joints(X_, link, p, *sweep_) : kUnbounded;
     if (link == 1) return rates_ ? std::min(bound, rates_->of_turret_point(p)) : bound;
     if (link == 2) return rates_ ? std::min(bound, rates_->of_upper_arm_point(p)) : bound;
@@ -104,38 +96,65 @@ class LineBound {
  private:
   static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
+  /// What is needed of the arm beyond the hand.
+  void look_at_arm() {
+    arm_known_ = true;
+    wrist_ = hand_(p_BW_);
+    const WristPace translation{sweep_of_hand_.direction, 0, hand_.way()};
+    WristPace rotation;
+    if (hand_.turn() > 0) {
+      const Vector3 swing = hand_.swing(p_BW_);
+      rotation = {swing, std::min(2.0, hand_.turn()) * swing.norm(), hand_.turn()};
+    }
+    rates_ = ArmRates::inside(model_.kinematics, X_, {translation, rotation});
+    if (rates_ && rates_->coarseness() < kCoarse) {
+      forearm_turn_ = rates_->forearm_turn();
+      return;
+    }
+    sweep_ = joint_sweep(model_.kinematics, branch_, X_, wrist_sweep(sweep_of_hand_, p_BW_ - p_BT_), hand_.turn());
+    forearm_turn_ = (*sweep_)[0] + (*sweep_)[1] + (*sweep_)[2];
+    if (rates_) forearm_turn_ = std::min(forearm_turn_, rates_->forearm_turn());
+  }
+
   /// Chord of joint 4's turn, and of joint 6's, at unit radius.
   [[nodiscard]] double wrist_roll() const {
     const double sine = X_[4].linear().col(2).cross(X_[6].linear().col(2)).norm();  // of joint 5
     return std::min(2.0, azimuth_sweep(std::min(kPi, forearm_turn_ + hand_.turn()), sine));
   }
 
+  const RobotModel& model_;
+  const Branch& branch_;
   const LinkFrames& X_;
-  Vector3 p_BW_;
+  const HandSweep& sweep_of_hand_;
+  Vector3 p_BW_, p_BT_;
   HandBound hand_;
-  double wrist_;  // displacement of the wrist centre [m]
+  bool arm_known_ = false;
+  double wrist_ = 0;  // displacement of the wrist centre [m]
   std::optional<ArmRates> rates_;
   std::optional<JointSweep> sweep_;
   double forearm_turn_ = kPi;
 };
 
-}  // namespace
-
-void displacement_by_joints(const RobotModel& model, const PlacedArm& arm, const JointSweep& sweep, double* out) {
-  const Vector3* end = arm.ends;
-  for (const LinkCapsule& c : model.capsules) {
-    const double at_a = by_joints(arm.X, c.link, *end++, sweep);
-    *out++ = std::max(at_a, by_joints(arm.X, c.link, *end++, sweep));
+/// Writes the larger bound of both ends of each capsule that is asked for.
+template <typename PointBound>
+void bound_wanted(const RobotModel& model, const PlacedArm& arm, double* out, PointBound&& bound) {
+  for (std::size_t i = 0; i < model.capsules.size(); ++i) {
+    if ((arm.wanted & only_capsule(i)) == 0) continue;
+    const std::size_t link = model.capsules[i].link;
+    const double at_a = bound(link, arm.ends[2 * i]);
+    out[i] = std::max(at_a, bound(link, arm.ends[2 * i + 1]));
   }
 }
 
+}  // namespace
+
+void displacement_by_joints(const RobotModel& model, const PlacedArm& arm, const JointSweep& sweep, double* out) {
+  bound_wanted(model, arm, out, [&](std::size_t link, const Vector3& p) { return by_joints(arm.X, link, p, sweep); });
+}
+
 void displacement_by_hand(const RobotModel& model, const Branch& branch, const PlacedArm& arm, const HandSweep& hand, double* out) {
-  const LineBound bound{model, branch, arm.X, hand};
-  const Vector3* end = arm.ends;
-  for (const LinkCapsule& c : model.capsules) {
-    const double at_a = bound(c.link, *end++);
-    *out++ = std::max(at_a, bound(c.link, *end++));
-  }
+  LineBound bound{model, branch, arm.X, hand};
+  bound_wanted(model, arm, out, bound);
 }
 
 }  // namespace interlace::model

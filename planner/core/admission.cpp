@@ -40,12 +40,12 @@ ReachableVolume base_volume(const model::Robot& robot) {
 
 class PathCheck {
  public:
-  PathCheck(SampledMotion& motion, double margin) : motion_(motion), margin_(margin) {}
+  PathCheck(SampledMotion& motion, double margin) : motion_(motion), margin_(margin), path_error_(motion.robot().controller.path_error) {}
 
   std::optional<model::MotionError> against_itself() {
     return walk(0, 0, [this](const SampledMotion::Piece& piece) -> std::optional<model::MotionError> {
       for (const auto& [i, j] : motion_.robot().model.self_pairs) {
-        if (near(piece.bodies[i], piece.bodies[j], piece.reach[i] + piece.reach[j])) {
+        if (near(piece.bodies[i], piece.bodies[j], piece.reach[i] + piece.reach[j] + 2 * path_error_)) {
           return error(piece.centre, model::Reason::self_collision, fmt::format("{} would touch the robot's own {}", name(i), name(j)));
         }
       }
@@ -54,7 +54,7 @@ class PathCheck {
   }
 
   std::optional<model::MotionError> against(const std::vector<model::Fixture>& fixtures) {
-    const auto contact = first_contact(motion_, fixtures, margin_);
+    const auto contact = first_contact(motion_, fixtures, margin_ + path_error_);
     if (!contact) return std::nullopt;
     const double length = motion_.motion().length(contact->t);
     return error(
@@ -66,7 +66,7 @@ class PathCheck {
     return walk(0, 0, [&](const SampledMotion::Piece& piece) -> std::optional<model::MotionError> {
       for (std::size_t i = 0; i < piece.bodies.size(); ++i) {
         for (const auto& [j, body] : base.bodies()) {
-          if (near(piece.bodies[i], body, piece.reach[i])) {
+          if (near(piece.bodies[i], body, piece.reach[i] + path_error_)) {
             return error(piece.centre, model::Reason::base_collision,
                          fmt::format("{} would touch {} of {}", name(i), base.robot().model.capsules[j].name, base.robot().name.str()));
           }
@@ -105,6 +105,7 @@ class PathCheck {
 
   SampledMotion& motion_;
   double margin_;
+  double path_error_;  // [m] of any of the robot's points
 };
 
 }  // namespace

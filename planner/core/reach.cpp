@@ -30,11 +30,12 @@ ReachableVolume reachable_volume(const model::Robot& robot) {
                                      {Vector3::Zero(), wrist},
                                      {Vector3::Zero(), wrist},
                                      {{0, 0, -p.c4}, wrist}}};
+  const double error = robot.controller.path_error + kRounding;
   ReachableVolume volume{robot.X_WB * centre, 0};
   for (const auto& c : robot.model.capsules) {
     const Pivot& pivot = pivots[c.link];
     const double extent = std::max((c.a - pivot.place).norm(), (c.b - pivot.place).norm()) + c.radius;
-    volume.radius = std::max(volume.radius, pivot.distance + extent + kRounding);
+    volume.radius = std::max(volume.radius, pivot.distance + extent + error);
   }
   return volume;
 }

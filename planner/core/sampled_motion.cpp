@@ -42,39 +42,51 @@ SampledMotion::SampledMotion(model::Motion motion, double resolution, const std:
   ends_.resize(2 * half_lengths_.size());
 }
 
-const SampledMotion::Piece& SampledMotion::make(int level, std::size_t index) {
-  const auto& capsules = robot().model.capsules;
+SampledMotion::Room& SampledMotion::room_for(int level, std::size_t index) {
+  Room*& known = pieces_[(std::size_t{1} << level) - 1 + index];
+  if (known != nullptr) return *known;
+  const std::size_t bodies = half_lengths_.size();
   if (blocks_.empty() || blocks_.back().pieces.size() == blocks_.back().pieces.capacity()) {
     const std::size_t room = depth_ > 0 ? kPiecesPerBlock : 1;
     Block& next = blocks_.emplace_back();
     next.pieces.reserve(room);
-    next.bodies.reserve(room * capsules.size());
-    next.reaches.reserve(room * capsules.size());
+    next.bodies.resize(room * bodies);
+    next.reaches.resize(room * bodies);
   }
   Block& block = blocks_.back();
-  Piece& made = block.pieces.emplace_back();
+  const std::size_t first = block.pieces.size() * bodies;
+  Room& room = block.pieces.emplace_back();
+  room.bodies = block.bodies.data() + first;
+  room.reach = block.reaches.data() + first;
+  Piece& piece = room.piece;
   const double length = motion_.duration() / static_cast<double>(std::size_t{1} << level);
-  made.t0 = length * static_cast<double>(index);
-  made.t1 = made.t0 + length;
-  made.centre = made.t0 + length / 2;
+  piece.t0 = length * static_cast<double>(index);
+  piece.t1 = piece.t0 + length;
+  piece.centre = piece.t0 + length / 2;
+  piece.bodies = {room.bodies, bodies};
+  piece.reach = {room.reach, bodies};
+  known = &room;
+  return room;
+}
 
+const SampledMotion::Piece& SampledMotion::make(int level, std::size_t index, model::CapsuleSet wanted) {
+  Room& room = room_for(level, index);
+  Piece& piece = room.piece;
+  const model::CapsuleSet missing = wanted & ~piece.made;
   model::LinkFrames X;
-  motion_.frames(made.centre, X);
+  motion_.frames(piece.centre, X);
   const model::Pose& X_WB = robot().X_WB;
+  const auto& capsules = robot().model.capsules;
   for (std::size_t i = 0; i < capsules.size(); ++i) {
+    if ((missing & model::only_capsule(i)) == 0) continue;
     const model::LinkCapsule& c = capsules[i];
     ends_[2 * i] = placed(X[c.link], c.a);
     ends_[2 * i + 1] = placed(X[c.link], c.b);
-    block.bodies.emplace_back(placed(X_WB, ends_[2 * i]), placed(X_WB, ends_[2 * i + 1]), half_lengths_[i], c.radius);
+    room.bodies[i] = Body{placed(X_WB, ends_[2 * i]), placed(X_WB, ends_[2 * i + 1]), half_lengths_[i], c.radius};
   }
-  made.bodies = {block.bodies.data() + block.bodies.size() - capsules.size(), capsules.size()};
-  block.reaches.resize(block.reaches.size() + capsules.size());
-  double* reach = block.reaches.data() + block.reaches.size() - capsules.size();
-  motion_.displacement(made.t0, made.centre, made.t1, {X, ends_.data()}, reach);
-  made.reach = {reach, capsules.size()};
-  for (const double r : made.reach) made.largest_reach = std::max(made.largest_reach, r);
-  pieces_[(std::size_t{1} << level) - 1 + index] = &made;
-  return made;
+  motion_.displacement(piece.t0, piece.centre, piece.t1, {X, ends_.data(), missing}, room.reach);
+  piece.made |= missing;
+  return piece;
 }
 
 SampledMotion& SampledMotion::at_start() {

@@ -28,14 +28,15 @@ class View {
 };
 
 /// A motion as the collision maps see it: its duration halved again and again, each piece with the bodies at its centre and how far they
-/// may be from there anywhere in the piece. Pieces are computed when first asked for and kept. Not thread-safe.
+/// may be from there anywhere in the piece. Pieces, and of each the bodies that matter, are computed when first asked for and kept.
+/// Not thread-safe.
 class SampledMotion {
  public:
   struct Piece {
     double t0 = 0, centre = 0, t1 = 0;  ///< local time [s]
     View<Body> bodies;                  ///< at the centre, in the order of the model's capsules
     View<double> reach;                 ///< displacement bound of each body within the piece [m]
-    double largest_reach = 0;           ///< [m]
+    model::CapsuleSet made = 0;         ///< of which bodies these are known
   };
 
   /// Halvings beyond depth() that a map may ask for: next to a collision, where a smaller piece can still be proven free.
@@ -55,10 +56,10 @@ class SampledMotion {
   [[nodiscard]] int depth() const { return depth_; }      ///< halvings down to the resolution; 0 for standing
   [[nodiscard]] int finest() const { return finest_; }    ///< deepest level there is
 
-  /// Piece `index` of the 2^level pieces of `level`.
-  [[nodiscard]] const Piece& piece(int level, std::size_t index) {
-    const Piece* kept = pieces_[(std::size_t{1} << level) - 1 + index];
-    return kept != nullptr ? *kept : make(level, index);
+  /// Piece `index` of the 2^level pieces of `level`, with at least the bodies of `wanted`.
+  [[nodiscard]] const Piece& piece(int level, std::size_t index, model::CapsuleSet wanted = model::kAllCapsules) {
+    const Room* kept = pieces_[(std::size_t{1} << level) - 1 + index];
+    return kept != nullptr && (wanted & ~kept->piece.made) == 0 ? kept->piece : make(level, index, wanted);
   }
 
   /// Standing at the motion's first and last posture, with all that the robot may hold there.
@@ -73,13 +74,19 @@ class SampledMotion {
 
  private:
   /// Room for pieces that come one by one and stay where they are: never filled beyond what was reserved.
+  struct Room {
+    Piece piece;
+    Body* bodies = nullptr;
+    double* reach = nullptr;
+  };
   struct Block {
-    std::vector<Piece> pieces;
+    std::vector<Room> pieces;
     std::vector<Body> bodies;
     std::vector<double> reaches;
   };
 
-  const Piece& make(int level, std::size_t index);
+  Room& room_for(int level, std::size_t index);
+  const Piece& make(int level, std::size_t index, model::CapsuleSet wanted);
 
   model::Motion motion_;
   model::MotionBodies bodies_;
@@ -88,7 +95,7 @@ class SampledMotion {
   int finest_ = 0;
   std::vector<double> half_lengths_;  // of the capsules' axes [m]
   std::vector<Vector3> ends_;         // of the capsules' axes in the piece being made, in the base frame [m]
-  std::vector<const Piece*> pieces_;  // binary tree in heap order; null: not asked for yet
+  std::vector<Room*> pieces_;         // binary tree in heap order; null: not asked for yet
   std::vector<Block> blocks_;
   std::unique_ptr<SampledMotion> at_start_;
   std::shared_ptr<SampledMotion> at_end_;

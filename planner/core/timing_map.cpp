@@ -87,8 +87,14 @@ class Subdivision {
   /// Examines one cell for the pairs [first, last) of `open_`: those its parent could not prove apart, the parent's worst one first. Pairs
   /// that this cell cannot prove apart either are passed on behind them.
   void cell(const Place& at, std::size_t first, std::size_t last) {
-    const SampledMotion::Piece& a = panel_.own->piece(at.own_level, at.own_index);
-    const SampledMotion::Piece& b = panel_.other->piece(at.other_level, at.other_index);
+    model::CapsuleSet own = 0;
+    model::CapsuleSet other = 0;
+    for (std::size_t k = first; k < last; ++k) {
+      own |= model::only_capsule(open_[k].own);
+      other |= model::only_capsule(open_[k].other);
+    }
+    const SampledMotion::Piece& a = panel_.own->piece(at.own_level, at.own_index, own);
+    const SampledMotion::Piece& b = panel_.other->piece(at.other_level, at.other_index, other);
     const bool at_resolution = at.own_level >= panel_.own->depth() && at.other_level >= panel_.other->depth();
     bool blocked = false;                       // dividing it gains nothing
     double least = kNever;                      // of clearance minus bound over the pairs that are not proven apart
@@ -188,7 +194,7 @@ TimingMap build_timing_map(SampledMotion& commanded, SampledMotion& moving, doub
   TimingMap map;
   map.commanded_duration = commanded.motion().duration();
   map.moving_duration = moving.motion().duration();
-  Subdivision subdivision{map, margin};
+  Subdivision subdivision{map, margin + commanded.robot().controller.path_error + moving.robot().controller.path_error};
   const double end = map.commanded_duration;
   const double other_end = map.moving_duration;
   SampledMotion& ended = commanded.at_end();

@@ -30,12 +30,12 @@ struct TimingMap {
 };
 
 /// Builds the map by certified subdivision: a cell is free when every pair's clearance at its centre exceeds the displacement bounds of
-/// both robots plus `margin` [m], blocked when some pair's is below minus that, halved otherwise, and blocked at the resolution limit.
-/// A cell at that limit whose centre is clear is halved SampledMotion::kFiner times more before it counts as blocked, but only where that
-/// could make a start window longer: where the shifts it forbids are not all forbidden by other cells.
-/// The moving robot stands at its first posture before t = 0 and at its last after its duration; so does the commanded robot at its end.
-/// The commanded robot's wait before τ = 0 is not examined: its place there is already safe against everything committed.
-/// Source: dissertation section 3.2 (CTM), DESIGN section 5.
+/// both robots plus `margin` [m], which grows by both path errors, blocked when some pair's is below minus that, halved otherwise, and
+/// blocked at the resolution limit. A cell at that limit whose centre is clear is halved SampledMotion::kFiner times more before it counts
+/// as blocked, but only where that could make a start window longer: where the shifts it forbids are not all forbidden by other cells. The
+/// moving robot stands at its first posture before t = 0 and at its last after its duration; so does the commanded robot at its end. The
+/// commanded robot's wait before τ = 0 is not examined: its place there is already safe against everything committed. Source: dissertation
+/// section 3.2 (CTM), DESIGN section 5.
 [[nodiscard]] TimingMap build_timing_map(SampledMotion& commanded, SampledMotion& moving, double margin);
 
 }  // namespace interlace::core

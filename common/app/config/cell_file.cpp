@@ -62,15 +62,16 @@ model::TcpLimits read_tcp(const Field& field, const Units& units) {
   return limits;
 }
 
-model::ControllerTraits read_controller(const Field& field) {
+model::ControllerTraits read_controller(const Field& field, const Units& units) {
   model::ControllerTraits traits;
-  const auto mapping = field.mapping({"start_latency", "start_jitter", "speed_error"});
+  const auto mapping = field.mapping({"start_latency", "start_jitter", "speed_error", "path_error"});
   if (!mapping) return traits;
   const Quantity time = seconds(kLongestWait);
   const auto latency = mapping->find("start_latency") ? optional_number(*mapping, "start_latency", time) : 0.0;
   traits.start_latency = latency.value_or(0);
   traits.start_jitter = number_or(*mapping, "start_jitter", time, 0);
   traits.speed_error = number_or(*mapping, "speed_error", ratio(kLargestSpeedError), 0);
+  traits.path_error = number_or(*mapping, "path_error", length(units), 0);
   if (latency && traits.start_jitter > *latency) {
     mapping->find("start_jitter")
         ->refuse("expected at most start_latency (" + show(*latency, time) + "): nothing starts before its command");
@@ -148,7 +149,7 @@ std::optional<PlacedRobot> read_robot(const Field& field, const Models& models, 
   model::Robot robot;
   if (const auto name = mapping->require("name")) robot.name = read_name(*name, field.key(), names);
   if (const auto tcp = mapping->require("tcp")) robot.tcp = read_tcp(*tcp, units);
-  if (const auto controller = mapping->find("controller")) robot.controller = read_controller(*controller);
+  if (const auto controller = mapping->find("controller")) robot.controller = read_controller(*controller, units);
   if (const auto holds = mapping->find("holds")) robot.holds = read_held(*holds, tools);
   const auto base = mapping->require("base");
   const auto start = mapping->require("start");

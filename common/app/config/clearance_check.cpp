@@ -78,10 +78,13 @@ bool check_all(const std::vector<Standing>& standing, const std::vector<model::F
   bool clear = true;
   for (const auto& s : standing) {
     clear = check_self(s, units) && clear;
-    for (const auto& fixture : fixtures) clear = check_fixture(s, fixture, margin, units) && clear;
+    for (const auto& fixture : fixtures) clear = check_fixture(s, fixture, margin + s.robot.controller.path_error, units) && clear;
   }
   for (std::size_t i = 0; i < standing.size(); ++i) {
-    for (std::size_t j = i + 1; j < standing.size(); ++j) clear = check_pair(standing[i], standing[j], margin, units) && clear;
+    for (std::size_t j = i + 1; j < standing.size(); ++j) {
+      const double both = standing[i].robot.controller.path_error + standing[j].robot.controller.path_error;
+      clear = check_pair(standing[i], standing[j], margin + both, units) && clear;
+    }
   }
   return clear;
 }

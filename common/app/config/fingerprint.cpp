@@ -82,6 +82,7 @@ void write(const model::Robot& robot, Canonical& out) {
   out.number(robot.controller.start_latency);
   out.number(robot.controller.start_jitter);
   out.number(robot.controller.speed_error);
+  out.number(robot.controller.path_error);
   out.count(robot.holds.size());
   for (const auto& tool : robot.holds) out.text(tool.str());
 }

@@ -123,7 +123,7 @@ TEST(Refusal, CommandStatus) {
           {"serves: 'a b'", [](auto& s) { s.serves("a b"); }},
           {"serves: 'xxx", [](auto& s) { s.serves(std::string(65, 'x')); }},
           {"state: 8", [](auto& s) { s.state(static_cast<wire::CommandState>(8)); }},
-          {"reason: 20", [](auto& s) { s.reason(static_cast<wire::ReasonCode>(20)); }},
+          {"reason: 21", [](auto& s) { s.reason(static_cast<wire::ReasonCode>(21)); }},
           {"text: 'two?lines' holds control", [](auto& s) { s.text("two\nlines"); }},
           {"text: '?' holds control characters or is not UTF-8", [](auto& s) { s.text("\xC0"); }},
           {"is too long", [](auto& s) { s.text(std::string(257, 't')); }},

@@ -141,6 +141,8 @@ INSTANTIATE_TEST_SUITE_P(
                "expected at most start_latency (0.02 s)"},
         Broken{"SpeedErrorLarge", "speed_error: 0.001", "speed_error: 0.9", 40, "robots[0].controller.speed_error", "\"0.9\"",
                "expected at most 0.5"},
+        Broken{"PathErrorNegative", "path_error: 2", "path_error: -2", 40, "robots[0].controller.path_error", "\"-2\"",
+               "expected a number >= 0 (mm)"},
         Broken{"FixturesNoList", "fixtures: []", "fixtures: table", 46, "fixtures", "\"table\"", "expected a list of fixtures"}),
     case_name);
 
@@ -162,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"HomesCollide", "joints: [0, 40, 94, 0, -44, 0]", "joints: [-70, 40, 94, 0, -44, 0]", 44, "robots[1].start",
                "{xyz: [450, -250, 300], rpy: [0, 0, 0]}", "in collision with robots[0].home: clearance of r2."},
         Broken{"CloserThanMargin", "margin: 5", "margin: 400", 44, "robots[1].start", "{xyz: [450, -250, 300], rpy: [0, 0, 0]}",
-               "expected > 400 mm"},
+               "expected > 402 mm"},
         Broken{"SelfCollision", "joints: [0, 40, 94, 0, -44, 0]", "joints: [0, -10, 170, 0, 70, 0]", 34, "robots[0].home",
                "{joints: [0, -10, 170, 0, 70, 0]}", "collides with itself: clearance of r1.base and r1.hand would be"}),
     case_name);

@@ -49,6 +49,7 @@ TEST(CellValues, EveryKeyArrivesInSiUnits) {
   EXPECT_DOUBLE_EQ(r1.controller.start_latency, 0.02);
   EXPECT_DOUBLE_EQ(r1.controller.start_jitter, 0.01);
   EXPECT_DOUBLE_EQ(r1.controller.speed_error, 0.001);
+  EXPECT_DOUBLE_EQ(r1.controller.path_error, 0.002);
   EXPECT_DOUBLE_EQ(cell.planning.resolution, 0.02);
   EXPECT_DOUBLE_EQ(cell.planning.margin, 0.005);
   EXPECT_EQ(cell.planning.strategy, "direct");

@@ -73,6 +73,7 @@ TEST(Fingerprint, EveryChangeOfAValueChangesIt) {
                                                                  {"start_latency: 0.02", "start_latency: 0.021"},
                                                                  {"start_jitter: 0.01", "start_jitter: 0.011"},
                                                                  {"speed_error: 0.001", "speed_error: 0.002"},
+                                                                 {"path_error: 2", "path_error: 3"},
                                                                  {"resolution: 0.02", "resolution: 0.01"},
                                                                  {"margin: 5", "margin: 6"},
                                                                  {"strategy: direct", "strategy: event"},

@@ -45,7 +45,7 @@ robots:
       acceleration: 200
       angular_velocity: 90
       angular_acceleration: 180
-    controller: {start_latency: 0.02, start_jitter: 0.01, speed_error: 0.001}
+    controller: {start_latency: 0.02, start_jitter: 0.01, speed_error: 0.001, path_error: 2}
   - name: r2
     model: arm
     base: {xyz: [0, -250, 0], rpy: [0, 0, 0]}

@@ -30,7 +30,6 @@ TEST(SampledMotion, PiecesOfALevelCoverTheDurationWithoutGaps) {
       EXPECT_NEAR(piece.t0, end, 1e-12);
       EXPECT_NEAR(piece.centre, (piece.t0 + piece.t1) / 2, 1e-12);
       ASSERT_EQ(piece.reach.size(), piece.bodies.size());
-      for (const double reach : piece.reach) EXPECT_LE(reach, piece.largest_reach);
       end = piece.t1;
     }
     EXPECT_NEAR(end, motion->motion().duration(), 1e-9);
@@ -38,13 +37,58 @@ TEST(SampledMotion, PiecesOfALevelCoverTheDurationWithoutGaps) {
   EXPECT_LE(motion->motion().duration() / std::pow(2.0, motion->depth()), 0.01);
 }
 
+/// Bodies that are asked for one by one, in any order, are those of the whole arm.
+TEST(SampledMotion, OfWhichSomeBodiesAreAskedForIsTheSame) {
+  Seed seed{77};
+  for (std::size_t k = 0; k < scaled(200); ++k) {
+    model::Robot robot = robot_at("r", seed.chance(0.5) ? arm4() : random_arm(seed), {0, 0, 0});
+    give_joint_rates(robot);
+    const model::Motion motion = seed.chance(0.3) ? random_joint_move(seed, robot) : random_linear(seed, robot);
+    SampledMotion whole{motion, 0.05};
+    SampledMotion parts{motion, 0.05};
+    const int level = static_cast<int>(seed.below(static_cast<std::size_t>(whole.finest()) + 1));
+    const std::size_t index = seed.below(std::size_t{1} << level);
+    const std::size_t bodies = robot.model.capsules.size();
+    for (std::size_t i = 0; i < 3 * bodies; ++i) {
+      const std::size_t body = seed.below(bodies);
+      const auto& piece = parts.piece(level, index, model::only_capsule(body));
+      const auto& all = whole.piece(level, index);
+      EXPECT_EQ(piece.reach[body], all.reach[body]) << "case " << k;
+      EXPECT_EQ(piece.bodies[body].a, all.bodies[body].a) << "case " << k;
+      EXPECT_EQ(piece.bodies[body].b, all.bodies[body].b) << "case " << k;
+    }
+  }
+}
+
 TEST(SampledMotion, StandingHasOnePieceThatDoesNotMove) {
   const auto cell = experiment_cell();
   SampledMotion still{model::Motion::rest(cell->robots[0], cell->robots[0].start), 0.01};
   EXPECT_EQ(still.depth(), 0);
-  EXPECT_EQ(still.piece(0, 0).largest_reach, 0);
+  for (const double reach : still.piece(0, 0).reach) EXPECT_EQ(reach, 0);
   EXPECT_EQ(&still.at_start(), &still);
   EXPECT_EQ(&still.at_end(), &still);
+}
+
+/// A robot that may leave its path is kept at a distance by as much.
+TEST(TimingMap, PathErrorsWidenTheMargin) {
+  const auto cell = experiment_cell();
+  auto careless = *cell;
+  careless.robots[0].controller.path_error = 0.010;
+  careless.robots[1].controller.path_error = 0.005;
+  const auto map_of = [](const model::Cell& c, double margin) {
+    const auto a = sampled(c.robots[0], c.robots[0].start, pose_mm(350, 0, 200));
+    const auto b = sampled(c.robots[1], c.robots[1].start, pose_mm(350, 0, 200));
+    return core::build_timing_map(*a, *b, margin);
+  };
+  const auto with_errors = map_of(careless, 0.002);
+  const auto with_margin = map_of(*cell, 0.017);
+  EXPECT_GT(with_errors.blocked.size(), 0U);
+  ASSERT_EQ(with_errors.blocked.size(), with_margin.blocked.size());
+  for (std::size_t i = 0; i < with_errors.blocked.size(); ++i) {
+    EXPECT_EQ(with_errors.blocked[i].t0, with_margin.blocked[i].t0);
+    EXPECT_EQ(with_errors.blocked[i].tau1, with_margin.blocked[i].tau1);
+  }
+  EXPECT_GT(core::reachable_volume(careless.robots[0]).radius, core::reachable_volume(cell->robots[0]).radius + 0.0099);
 }
 
 TEST(TimingMap, OfTwoThatStandTogetherBlocksForEver) {
