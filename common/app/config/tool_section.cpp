@@ -11,6 +11,7 @@ constexpr std::size_t kFlange = 6;         // link
 
 std::vector<std::string> names_of(const std::vector<model::Tool>& tools) {
   std::vector<std::string> names;
+  names.reserve(tools.size());
   for (const auto& tool : tools) names.push_back(tool.name.str());
   return names;
 }
