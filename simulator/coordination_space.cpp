@@ -196,6 +196,42 @@ PairSpace::PairSpace(const Track& track_a, const Track& track_b, const Crossing&
     for (std::size_t u = first; u < last; ++u) forbid(u, v, kOnlyA);
     if (s.other.from == s.other.until) stand_still(static_cast<std::size_t>(std::lround(a.place(s.other.from))), v);
   }
+  {
+    // leave_a[u][v]: bit 1 forbidden while b moves at v (step from v), bit 2 forbidden while b stands at v.
+    std::map<std::size_t, std::vector<std::uint8_t>> la, lb;
+    const auto fill = [](const std::vector<Crossing::Leaving>& leaves, const Lattice& own, const Lattice& other, std::map<std::size_t, std::vector<std::uint8_t>>& out) {
+      for (const auto& l : leaves) {
+        auto& row = out[own.points[l.motion]];
+        row.resize(other.points.back() + 1);
+        if (l.progress.from == l.progress.until) { row[static_cast<std::size_t>(std::lround(other.place(l.progress.from)))] |= 2; continue; }
+        const auto first = static_cast<std::size_t>(std::max(0.0, std::ceil(other.place(l.progress.from) + kTouch)));
+        const auto last = static_cast<std::size_t>(std::floor(std::max(0.0, other.place(l.progress.until) - kTouch)));
+        for (std::size_t v = first; v <= last && v < other.points[l.other + 1]; ++v) row[v] |= 1;
+        if (l.progress.from <= other.times[l.other] + 1e-9) row[other.points[l.other]] |= 1;
+      }
+    };
+    fill(crossing.a_leaves, a, b, la);
+    fill(crossing.b_leaves, b, a, lb);
+    for (const auto& [u, row] : la)
+      for (std::size_t v = 0; v < row.size(); ++v) {
+        const bool b_stop = b.at_stop[v];
+        if ((row[v] & 2) != 0) forbid(u, v, kOnlyA);
+        if (!b_stop && (row[v] & 1) != 0) forbid(u, v, kBoth);
+      }
+    for (const auto& [v, row] : lb)
+      for (std::size_t u = 0; u < row.size(); ++u) {
+        const bool a_stop = a.at_stop[u];
+        if ((row[u] & 2) != 0) forbid(u, v, kOnlyB);
+        if (!a_stop && (row[u] & 1) != 0) forbid(u, v, kBoth);
+      }
+    const auto bit = [](const std::map<std::size_t, std::vector<std::uint8_t>>& m, std::size_t i, std::size_t j) { const auto f = m.find(i); return f == m.end() ? 0 : static_cast<int>(f->second[j]); };
+    for (const std::size_t u : a.points)
+      for (const std::size_t v : b.points) {
+        const int x = bit(la, u, v), y = bit(lb, v, u);
+        const bool a_first = (x & 2) == 0 && (y & 1) == 0, b_first = (y & 2) == 0 && (x & 1) == 0;
+        if (!a_first && !b_first) forbid(u, v, kBoth);
+      }
+  }
   to_go_.assign(rows_ * columns_, kNever);
   for (std::size_t u = rows_; u-- > 0;) {
     for (std::size_t v = columns_; v-- > 0;) {

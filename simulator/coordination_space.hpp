@@ -30,6 +30,12 @@ struct Crossing {
     std::size_t stop = 0;
     Span other;
   };
+  /// a may not start its motion `motion` while b's progress in its motion `other` is in `progress`; of no length: nor while b stands there.
+  struct Leaving {
+    std::size_t motion = 0, other = 0;
+    Span progress;
+  };
+  std::vector<Leaving> a_leaves, b_leaves;
   std::vector<Moving> moving;
   std::vector<Standing> a_stands, b_stands;
 };

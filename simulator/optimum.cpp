@@ -59,6 +59,25 @@ void add(const core::TimingMap& map, const Course& course_b, std::optional<std::
     const bool before_b = c.t0 == -kNever, after_b = c.t1 == kNever;
     const auto progress_a = [&](double tau) { return course_a.track.stops[*a] + tau; };
     const auto progress_b = [&](double t) { return course_b.track.stops[b] + t; };
+    if (getenv("SAFE")) {
+      if (a) {
+        if (before_b) crossing.a_leaves.push_back({*a, b, {course_b.track.stops[b], course_b.track.stops[b]}});
+        if (after_b) {
+          crossing.a_leaves.push_back({*a, b, {course_b.track.stops[b + 1], course_b.track.stops[b + 1]}});
+        }
+        if (!before_b) {
+          const double lo = std::max(0.0, c.t0 - c.tau1), hi = std::min(map.moving_duration, c.t1 - c.tau0);
+          if (hi > lo) crossing.a_leaves.push_back({*a, b, {course_b.track.stops[b] + lo, course_b.track.stops[b] + hi}});
+        }
+      }
+      if (b < course_b.motions.size() && !before_b) {
+        if (a_stands) crossing.b_leaves.push_back({b, a.value_or(0), {course_a.track.stops[end_of_a], course_a.track.stops[end_of_a]}});
+        if (a) {
+          const double lo = std::max(0.0, c.tau0 - c.t1), hi = std::min(map.commanded_duration, c.tau1 - c.t0);
+          if (hi > lo) crossing.b_leaves.push_back({b, *a, {course_a.track.stops[*a] + lo, course_a.track.stops[*a] + hi}});
+        }
+      }
+    }
     if (!before_b && !after_b) {
       if (a_stands) {
         crossing.a_stands.push_back({end_of_a, {progress_b(c.t0), progress_b(c.t1)}});

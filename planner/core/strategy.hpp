@@ -87,6 +87,7 @@ struct Timing {
 struct Service {
   bool in_turn = false;  ///< robots are served in turn 1 … n, one commanded robot at a time; else whoever can start does
   bool escapes = false;  ///< deadlocks are resolved by escapes
+  bool ahead = false;    ///< commands that wait are planned together (planner/core/outlook.hpp)
   EscapeRules rules;     ///< which
 };
 
