@@ -155,7 +155,7 @@ class World {
 
   /// While nothing is due the planner looks ahead, as long as a few decisions would take.
   void think() {
-    constexpr int kTimes = 5;
+    constexpr int kTimes = 2;
     for (int i = 0; i < kTimes && planner_.think(); ++i) {
     }
   }

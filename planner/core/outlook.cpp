@@ -15,16 +15,18 @@ using model::RobotIndex;
 
 namespace {
 
-constexpr double kSamePlace = 1e-9;        // [rad]
-constexpr double kBeyond = 1e-3;           // [m] a detour goes on after the last place that is in the way
-constexpr double kSameTime = 1e-6;         // [s]
-constexpr std::size_t kDetours = 4;        // of one robot for one command
-constexpr std::size_t kSameKept = 3;       // nodes of a beam in which all robots are at the same places
-constexpr std::size_t kMotionsKept = 512;  // of whose pairs the intervals are kept
+constexpr double kSamePlace = 1e-9;         // [rad]
+constexpr double kBeyond = 1e-3;            // [m] a detour goes on after the last place that is in the way
+constexpr double kSameTime = 1e-6;          // [s]
+constexpr std::size_t kDetours = 3;         // of one robot for one command
+constexpr std::size_t kSameKept = 8;        // nodes of a beam in which all robots are at the same places
+constexpr std::size_t kMotionsKept = 2048;  // of whose pairs the intervals are kept
 
 // Work: 1 is a look at the intervals of one pair, about 30 ns on a machine of 2020.
 constexpr std::size_t kMapWork = 6000;
+constexpr std::size_t kKeptMapWork = 300;
 constexpr std::size_t kAdmitWork = 6000;
+constexpr std::size_t kReachWork = 50'000;
 
 bool same_place(const model::Joints& a, const model::Joints& b) {
   return (a - b).cwiseAbs().maxCoeff() <= kSamePlace;
@@ -47,14 +49,6 @@ std::optional<double> first_clear(const TimingMap& map) {
   return clear > map.moving_duration ? std::nullopt : std::optional{clear};
 }
 
-/// A number in [0, 1) that depends on both and is the same on every machine (splitmix64).
-double noise_of(std::uint64_t seed, std::uint64_t x) {
-  std::uint64_t z = seed * 0x9E3779B97F4A7C15U + x * 0xBF58476D1CE4E5B9U;
-  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
-  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
-  return static_cast<double>((z ^ (z >> 31U)) >> 11U) * 0x1p-53;
-}
-
 }  // namespace
 
 Outlook::Outlook(const model::Cell& cell, Neighbourhood neighbourhood)
@@ -73,6 +67,7 @@ std::uint64_t Outlook::look(std::vector<OutlookRobot> robots, const Timing& timi
   places_.clear();
   roots_.clear();
   next_beam_ = 0;
+  settled_.reset();
   for (RobotIndex i = 0; i < robots_.size(); ++i) {
     const OutlookRobot& r = robots_[i];
     const model::MotionRequest* back = r.back ? &*r.back : nullptr;
@@ -140,12 +135,13 @@ Outlook::Place* Outlook::after_detour(RobotIndex robot, Place& place, const Deto
 }
 
 Outlook::Forbidden Outlook::compute(RobotIndex robot, const SampledMotionPtr& motion, const Neighbour& other) {
-  work_ += kMapWork;
+  const std::size_t builds = maps_->builds();
   const Candidate candidate{robot, motion, robots_[robot].tolerance};
   std::vector<RobotIndex> departures;
   Forbidden all;
   for (const ForbiddenStart& f : forbidden_by_map(candidate, other, timing_, maps_->get(motion, other.motion), departures))
     all.push_back(f.interval);
+  work_ += maps_->builds() > builds ? kMapWork : kKeptMapWork;
   return united(std::move(all));
 }
 
@@ -237,7 +233,7 @@ const std::vector<Outlook::Way>& Outlook::ways_of(RobotIndex robot, Place& place
                                                                  {EscapeWay::plus_z, Vector3::UnitZ()},
                                                                  {EscapeWay::minus_z, -Vector3::UnitZ()}}};
   for (const auto& [way, unit] : directions) {
-    work_ += kAdmitWork;
+    work_ += kReachWork;
     auto full = to_reachable_goal(cell_, robot, q, unit);
     if (full.motion) ways->push_back({way, full.request, std::move(full.motion)});
   }
@@ -286,7 +282,12 @@ std::size_t Outlook::add(std::size_t parent, Action action, const SampledMotionP
   const Instant end = action.start + robots_[action.robot].tolerance + duration_of(motion);
   node.end = std::max(nodes_[parent].end, end);
   node.flow = nodes_[parent].flow;
-  if (!action.detour.motion) node.flow += end - timing_.earliest;
+  node.detours = nodes_[parent].detours;
+  if (action.detour.motion) {
+    ++node.detours;
+  } else {
+    node.flow += end - timing_.earliest;
+  }
   states_.resize((index + 1) * n);
   std::copy_n(states_.begin() + static_cast<std::ptrdiff_t>(parent * n), n, states_.begin() + static_cast<std::ptrdiff_t>(index * n));
   RobotState& s = states_[index * n + action.robot];
@@ -300,7 +301,7 @@ std::size_t Outlook::add(std::size_t parent, Action action, const SampledMotionP
 }
 
 /// Everything that can start next: commands, and where somebody is stuck, detours of those in his way.
-void Outlook::expand(std::size_t parent, std::vector<std::size_t>& commands, std::vector<std::size_t>& detours) {
+void Outlook::expand(std::size_t parent, std::size_t most_detours, std::vector<std::size_t>& commands, std::vector<std::size_t>& detours) {
   const auto n = static_cast<RobotIndex>(robots_.size());
   enum class Will : std::uint8_t { idle, go, wait };
   std::vector<Will> will(n, Will::idle);
@@ -312,6 +313,7 @@ void Outlook::expand(std::size_t parent, std::vector<std::size_t>& commands, std
     if (!start) continue;
     if (Place* to = after_command(i, *s.place)) commands.push_back(add(parent, {i, {}, i, *start}, s.place->next, to));
   }
+  if (nodes_[parent].detours >= most_detours) return;
   // Who waits for those that will go is not stuck.
   const auto blocked_by = [&](RobotIndex i, RobotIndex j) { return blocks_for_good(parent, j, i, state(parent, i).place->next); };
   for (bool changed = true; changed;) {
@@ -362,10 +364,19 @@ OutlookPlan Outlook::plan_to(std::size_t node) const {
 }
 
 Outlook::Beam Outlook::beam(std::size_t index) {
-  constexpr std::array<std::size_t, 5> kWidths{1, 8, 64, 500, 3000};
-  constexpr std::array<double, 4> kMeans{0.3, 1.0, 0.1, 3.0};
-  const std::size_t width = kWidths[std::min(index / kMeans.size(), kWidths.size() - 1)];
-  return {width, kMeans[index % kMeans.size()], 0};
+  static constexpr std::array<Beam, kBeams> kAll{{{8, 0.3, 0},
+                                                  {64, 0.3, 0},
+                                                  {64, 1.0, 0},
+                                                  {512, 0.3, 0},
+                                                  {64, 0.3, 1},
+                                                  {512, 1.0, 0},
+                                                  {64, 0.3, 3},
+                                                  {4096, 0.3, 0},
+                                                  {512, 0.3, 1},
+                                                  {512, 0.3, 4},
+                                                  {4096, 0.3, 1},
+                                                  {4096, 0.3, 4}}};
+  return kAll.at(index);
 }
 
 /// The present as the first node; false when there is no saying from where a robot goes on.
@@ -400,7 +411,7 @@ std::optional<OutlookPlan> Outlook::follow(const OutlookPlan& plan) {
   while (!complete(node)) {  // what has come since goes as early as it can
     commands.clear();
     detours.clear();
-    expand(node, commands, detours);
+    expand(node, 1, commands, detours);
     if (commands.empty()) commands.swap(detours);
     if (commands.empty()) return std::nullopt;
     node = *std::min_element(commands.begin(), commands.end(), [&](auto a, auto b) { return nodes_[a].last < nodes_[b].last; });
@@ -408,42 +419,43 @@ std::optional<OutlookPlan> Outlook::follow(const OutlookPlan& plan) {
   return plan_to(node);
 }
 
-/// The motion of a detour as it is kept, to be pointed at; null when it is not kept any more.
-const SampledMotionPtr* Outlook::kept(const Posture& posture, const Detour& detour) {
-  for (const auto& [served, detours] : posture.detours) {
-    for (const Detour& d : detours) {
-      if (d.motion == detour.motion) return &d.motion;
-    }
-  }
-  return nullptr;
+/// The motion of a detour where it stays, to be pointed at; null when it does not start here.
+const SampledMotionPtr* Outlook::kept(Posture& posture, const Detour& detour) {
+  if (!same_place(posture.q, detour.motion->motion().from())) return nullptr;
+  const auto found = std::find(posture.followed.begin(), posture.followed.end(), detour.motion);
+  if (found != posture.followed.end()) return &*found;
+  posture.followed.push_back(detour.motion);
+  return &posture.followed.back();
 }
 
 std::optional<OutlookPlan> Outlook::search(const std::optional<Instant>& no_later, const OutlookPlan* best, std::size_t budget) {
   work_ = 0;
   budget_ = budget;
   std::optional<OutlookPlan> found;
-  while (!exhausted() && work_ <= budget_) {
-    const OutlookPlan* beat = found ? &*found : best;
-    auto plan = run(beam(next_beam_), next_beam_, no_later, beat);
-    if (work_ <= budget_) ++next_beam_;
+  for (; !exhausted(); ++next_beam_) {
+    const Beam next = beam(next_beam_);
+    if (settled_ && next.detours <= *settled_) continue;
+    auto plan = run(next, no_later, found ? &*found : best);
+    if (work_ > budget_) break;
     if (plan) found = std::move(plan);
   }
   return found;
 }
 
-std::optional<OutlookPlan> Outlook::run(const Beam& beam, std::size_t index, std::optional<Instant> no_later, const OutlookPlan* best) {
+std::optional<OutlookPlan> Outlook::run(const Beam& beam, std::optional<Instant> no_later, const OutlookPlan* best) {
   const std::size_t n = robots_.size();
   if (!begin()) return std::nullopt;
   if (best != nullptr) no_later = no_later ? std::min(*no_later, best->end) : best->end;
   std::vector<std::size_t> layer{0}, next, commands, detours;
   std::optional<std::size_t> best_node;
+  bool cut = false;
   while (!layer.empty() && !best_node) {
     next.clear();
     for (std::size_t k = 0; k < layer.size(); ++k) {
       if (work_ > budget_) return std::nullopt;
       commands.clear();
       detours.clear();
-      expand(layer[k], commands, detours);
+      expand(layer[k], beam.detours, commands, detours);
       next.insert(next.end(), commands.begin(), commands.end());
       layer.insert(layer.end(), detours.begin(), detours.end());
     }
@@ -456,7 +468,7 @@ std::optional<OutlookPlan> Outlook::run(const Beam& beam, std::size_t index, std
         sum += end;
       }
       Node& node = nodes_[k];
-      node.score = most + beam.mean * sum / static_cast<double>(n) + beam.noise * noise_of(index, k);
+      node.score = most + beam.mean * sum / static_cast<double>(n);
       return !no_later || most <= model::to_seconds(*no_later) + kSameTime;
     };
     next.erase(std::remove_if(next.begin(), next.end(), [&](std::size_t k) { return !judge(k); }), next.end());
@@ -471,11 +483,19 @@ std::optional<OutlookPlan> Outlook::run(const Beam& beam, std::size_t index, std
         if (better) best_node = k;
         continue;
       }
-      if (layer.size() >= beam.width) continue;
+      if (layer.size() >= beam.width) {
+        cut = true;
+        continue;
+      }
       for (RobotIndex i = 0; i < n; ++i) places[i] = state(k, i).place;
-      if (++same[places] <= kSameKept) layer.push_back(k);
+      if (++same[places] <= kSameKept) {
+        layer.push_back(k);
+      } else {
+        cut = true;
+      }
     }
   }
+  if (!cut) settled_ = beam.detours;
   if (!best_node) return std::nullopt;
   OutlookPlan plan = plan_to(*best_node);
   if (best != nullptr && !plan.better_than(*best)) return std::nullopt;

@@ -85,7 +85,7 @@ class Outlook {
   [[nodiscard]] std::size_t work() const { return work_; }
 
  private:
-  static constexpr std::size_t kBeams = 20;
+  static constexpr std::size_t kBeams = 12;
 
   /// When a motion forbids another to start, after its own start.
   using Forbidden = std::vector<StartInterval>;
@@ -100,6 +100,7 @@ class Outlook {
     model::Joints q;
     std::optional<std::vector<Way>> ways;
     std::map<std::uint64_t, std::vector<Detour>> detours;  // by the motion that room is made for
+    std::deque<SampledMotionPtr> followed;                 // detours of plans, when their own place is gone
     std::map<std::uint64_t, SampledMotionPtr> from_here;   // commands by the motion they are from elsewhere; null: not possible
   };
   /// Where a robot stands with how many commands done.
@@ -131,21 +132,21 @@ class Outlook {
     Instant last{};
     Instant end{};
     Duration flow{};
+    std::size_t detours = 0;  // so far
     double score = 0;
   };
   struct Beam {
     std::size_t width;
-    double mean;   // weight of what all robots have before them, beside the one that has most
-    double noise;  // [s]
+    double mean;          // weight of what all robots have before them, beside the one that has most
+    std::size_t detours;  // at most, in a plan
   };
 
   [[nodiscard]] static Beam beam(std::size_t index);
-  [[nodiscard]] std::optional<OutlookPlan> run(const Beam& beam, std::size_t index, std::optional<Instant> no_later,
-                                               const OutlookPlan* best);
-  void expand(std::size_t parent, std::vector<std::size_t>& commands, std::vector<std::size_t>& detours);
+  [[nodiscard]] std::optional<OutlookPlan> run(const Beam& beam, std::optional<Instant> no_later, const OutlookPlan* best);
+  void expand(std::size_t parent, std::size_t most_detours, std::vector<std::size_t>& commands, std::vector<std::size_t>& detours);
   std::size_t add(std::size_t parent, Action action, const SampledMotionPtr& motion, Place* to);
   [[nodiscard]] bool begin();
-  [[nodiscard]] static const SampledMotionPtr* kept(const Posture& posture, const Detour& detour);
+  [[nodiscard]] static const SampledMotionPtr* kept(Posture& posture, const Detour& detour);
   [[nodiscard]] OutlookPlan plan_to(std::size_t node) const;
   [[nodiscard]] const RobotState& state(std::size_t node, model::RobotIndex i) const { return states_[node * robots_.size() + i]; }
   [[nodiscard]] bool complete(std::size_t node) const;
@@ -180,6 +181,7 @@ class Outlook {
   std::vector<RobotState> states_;  // of all robots at each node
   std::uint64_t looks_ = 0;
   std::size_t next_beam_ = 0;
+  std::optional<std::size_t> settled_;  // with so many detours everything was tried
   std::size_t work_ = 0, budget_ = 0;
 };
 

@@ -11,6 +11,12 @@ using model::CommandState;
 using model::CommandStatus;
 using model::Reason;
 
+namespace {
+
+constexpr std::size_t kFirstLook = 15;  // budgets for a decision while nobody moves
+
+}  // namespace
+
 void Planner::serve_ahead(Instant now, Decisions& out) {
   check_clearing();
   ahead_.arrived = false;
@@ -86,8 +92,10 @@ void Planner::look_ahead(Instant now) {
 
 /// Puts one decision's work into a better plan.
 void Planner::search_ahead() {
+  // While all stand there is nothing to be late for.
+  const std::size_t budget = all_stand() ? kFirstLook : 1;
   const auto no_later = ahead_.plan ? std::nullopt : ahead_.event_ends;
-  auto better = ahead_.outlook->search(no_later, ahead_.plan ? &*ahead_.plan : nullptr, cell_->planning.lookahead_budget);
+  auto better = ahead_.outlook->search(no_later, ahead_.plan ? &*ahead_.plan : nullptr, budget * cell_->planning.lookahead_budget);
   if (better && (!no_later || better->end < *no_later)) ahead_.plan = std::move(better);
 }
 

@@ -12,8 +12,11 @@ namespace interlace::core {
 const TimingMap& MapStore::get(const SampledMotionPtr& commanded, const SampledMotionPtr& moving) {
   const auto key = std::make_pair(commanded->id(), moving->id());
   if (const auto found = maps_.find(key); found != maps_.end()) return found->second.map;
-  constexpr std::size_t kTidyAt = 256;
-  if (maps_.size() >= kTidyAt) forget_dead();
+  if (maps_.size() >= tidy_at_) {
+    forget_dead();
+    tidy_at_ = std::max(kTidyAt, 2 * maps_.size());
+  }
+  ++builds_;
   const double before = stopwatch_ ? stopwatch_() : 0;
   TimingMap map = build_timing_map(*commanded, *moving, margin_);
   if (stopwatch_) build_times_.push_back(stopwatch_() - before);

@@ -24,6 +24,9 @@ class MapStore {
 
   [[nodiscard]] std::size_t size() const { return maps_.size(); }
 
+  /// Maps built so far.
+  [[nodiscard]] std::size_t builds() const { return builds_; }
+
   /// Seconds each map took to build since the last call; empty without a stopwatch.
   [[nodiscard]] std::vector<double> take_build_times() { return std::exchange(build_times_, {}); }
 
@@ -34,10 +37,14 @@ class MapStore {
   };
   void forget_dead();
 
+  static constexpr std::size_t kTidyAt = 256;
+
   double margin_;
   std::function<double()> stopwatch_;
   std::map<std::pair<std::uint64_t, std::uint64_t>, Kept> maps_;
   std::vector<double> build_times_;
+  std::size_t builds_ = 0;
+  std::size_t tidy_at_ = kTidyAt;
 };
 
 /// Another robot as a candidate has to see it.
