@@ -428,7 +428,9 @@ const SampledMotionPtr* Outlook::kept(Posture& posture, const Detour& detour) {
   return &posture.followed.back();
 }
 
-std::optional<OutlookPlan> Outlook::search(const std::optional<Instant>& no_later, const OutlookPlan* best, std::size_t budget) {
+std::optional<OutlookPlan> Outlook::search(const std::optional<Instant>& no_later, const OutlookPlan* best, std::size_t budget,
+                                           MapStore& maps) {
+  maps_ = &maps;
   work_ = 0;
   budget_ = budget;
   std::optional<OutlookPlan> found;

@@ -72,9 +72,10 @@ class Outlook {
   /// The starts of `plan` in their order, from how things are; empty when they are no longer possible, or not all.
   [[nodiscard]] std::optional<OutlookPlan> follow(const OutlookPlan& plan);
 
-  /// A plan better than `best`, or the best plan where there is none yet; empty when none is found with `budget` work, or when nothing is
-  /// left to try. A second search from the same state goes on with wider beams.
-  [[nodiscard]] std::optional<OutlookPlan> search(const std::optional<Instant>& no_later, const OutlookPlan* best, std::size_t budget);
+  /// A plan that is better than `best` and ends no later than `no_later`, where these are given; empty when none is found with `budget`
+  /// work. The next search from the same state goes on where this one stopped, with wider beams and more detours.
+  [[nodiscard]] std::optional<OutlookPlan> search(const std::optional<Instant>& no_later, const OutlookPlan* best, std::size_t budget,
+                                                  MapStore& maps);
 
   /// The last search from this state tried all that it knows.
   [[nodiscard]] bool exhausted() const { return next_beam_ >= kBeams; }

@@ -95,7 +95,7 @@ void Planner::search_ahead() {
   // While all stand there is nothing to be late for.
   const std::size_t budget = all_stand() ? kFirstLook : 1;
   const auto no_later = ahead_.plan ? std::nullopt : ahead_.event_ends;
-  auto better = ahead_.outlook->search(no_later, ahead_.plan ? &*ahead_.plan : nullptr, budget * cell_->planning.lookahead_budget);
+  auto better = ahead_.outlook->search(no_later, ahead_.plan ? &*ahead_.plan : nullptr, budget * cell_->planning.lookahead_budget, maps_);
   if (better && (!no_later || better->end < *no_later)) ahead_.plan = std::move(better);
 }
 

@@ -211,7 +211,7 @@ model::Cell read_cell(const YAML::Node& document, Findings& findings) {
 }  // namespace
 
 const std::vector<std::string>& strategy_names() {
-  static const std::vector<std::string> names{"direct", "zone", "eef-map", "acm", "event"};
+  static const std::vector<std::string> names{"direct", "zone", "eef-map", "acm", "event", "lookahead"};
   return names;
 }
 
