@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/app/config/capsule_section.hpp"
 #include "common/app/config/pose_section.hpp"
 
 namespace interlace::app {
@@ -114,16 +115,11 @@ std::optional<LinkCapsule> read_capsule(const Field& field, const Units& units) 
   if (!mapping) return std::nullopt;
   const auto name = mapping->require("name");
   const auto link = mapping->require("link");
-  const auto from = mapping->require("from");
-  const auto to = mapping->require("to");
-  const auto radius = mapping->require("radius");
+  const auto shape = read_capsule_shape(*mapping, units);
   const auto text = name ? name->name() : std::nullopt;
   const auto number = link ? link->integer(0, 6) : std::nullopt;
-  const auto a = from ? from->vector(coordinate(units)) : std::nullopt;
-  const auto b = to ? to->vector(coordinate(units)) : std::nullopt;
-  const auto r = radius ? radius->number(positive_length(units)) : std::nullopt;
-  if (!text || !number || !a || !b || !r) return std::nullopt;
-  return LinkCapsule{*text, static_cast<std::size_t>(*number), *a, *b, *r};
+  if (!text || !number || !shape) return std::nullopt;
+  return LinkCapsule{*text, static_cast<std::size_t>(*number), shape->a, shape->b, shape->radius};
 }
 
 std::optional<std::vector<LinkCapsule>> read_capsule_list(const Field& field, const Units& units) {

@@ -2,24 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <sstream>
 
 #include "common/app/config/number_text.hpp"
 #include "common/app/config/quantity.hpp"
+#include "common/app/config/text_buffer.hpp"
 
 namespace interlace::app {
 
 namespace {
 
-using Text = fmt::memory_buffer;
-
-template <typename... Args>
-void append(Text& out, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
-}
-
-void write_kinematics(Text& out, const model::OpwParameters& p, const Units& units) {
+void write_kinematics(TextBuffer& out, const model::OpwParameters& p, const Units& units) {
   const auto length = [&](double value) { return number_text(value, units.per_metre); };
   append(out, "    kinematics: {{type: opw, a1: {}, a2: {}, b: {}, c1: {}, c2: {}, c3: {}, c4: {}", length(p.a1), length(p.a2), length(p.b),
          length(p.c1), length(p.c2), length(p.c3), length(p.c4));
@@ -31,14 +24,14 @@ void write_kinematics(Text& out, const model::OpwParameters& p, const Units& uni
   append(out, "}}\n");
 }
 
-void write_joints(Text& out, const model::JointLimits& limits, const Units& units) {
+void write_joints(TextBuffer& out, const model::JointLimits& limits, const Units& units) {
   append(out, "    joints: {{min: [{}], max: [{}]", numbers_text(limits.min, units.per_radian), numbers_text(limits.max, units.per_radian));
   if (limits.velocity) append(out, ", velocity: [{}]", numbers_text(*limits.velocity, units.per_radian));
   if (limits.acceleration) append(out, ", acceleration: [{}]", numbers_text(*limits.acceleration, units.per_radian));
   append(out, "}}\n");
 }
 
-void write_self_pairs(Text& out, const model::RobotModel& model) {
+void write_self_pairs(TextBuffer& out, const model::RobotModel& model) {
   std::vector<std::string> pairs;
   for (const auto& [i, j] : model.self_pairs) pairs.push_back(fmt::format("[{}, {}]", model.capsules[i].name, model.capsules[j].name));
   append(out, "    self_collision: [{}]\n", fmt::join(pairs, ", "));
@@ -48,7 +41,7 @@ void write_self_pairs(Text& out, const model::RobotModel& model) {
 
 std::string model_text(const model::RobotModel& model, const std::string& comment) {
   const Units units;  // mm and deg
-  Text out;
+  TextBuffer out;
   std::istringstream lines{comment};
   for (std::string line; std::getline(lines, line);) append(out, "# {}\n", line);
   append(out, "models:  # lengths in {}, angles in {}\n  {}:\n", units.length, units.angle, model.name);

@@ -2,24 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <sstream>
 
 #include "common/app/config/number_text.hpp"
 #include "common/app/config/quantity.hpp"
+#include "common/app/config/text_buffer.hpp"
 
 namespace interlace::app {
 
 namespace {
 
-using Text = fmt::memory_buffer;
-
-template <typename... Args>
-void append(Text& out, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
-}
-
-void write_step(Text& out, const model::ProgramStep& step, const Units& units) {
+void write_step(TextBuffer& out, const model::ProgramStep& step, const Units& units) {
   if (const auto* line = std::get_if<model::LinearTarget>(&step.motion.target)) {
     append(out, "    - {{move: linear, to: {{xyz: [{}], rpy: [{}]}}", numbers_text(line->X_WT.translation(), units.per_metre),
            numbers_text(model::rpy_of(line->X_WT.linear()), units.per_radian));
@@ -43,7 +36,7 @@ void write_step(Text& out, const model::ProgramStep& step, const Units& units) {
 
 std::string program_text(const model::Program& program, const std::string& comment) {
   const Units units;  // mm and deg
-  Text out;
+  TextBuffer out;
   std::istringstream lines{comment};
   for (std::string line; std::getline(lines, line);) append(out, "# {}\n", line);
   append(out, "interlace: 1\nunits: {{length: {}, angle: {}}}\nprogram:\n", units.length, units.angle);

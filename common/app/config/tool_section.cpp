@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/app/config/capsule_section.hpp"
+
 namespace interlace::app {
 
 namespace {
@@ -19,14 +21,9 @@ std::vector<std::string> names_of(const std::vector<model::Tool>& tools) {
 std::optional<model::LinkCapsule> read_capsule(const Field& field, const std::string& tool, const Units& units) {
   const auto mapping = field.mapping({"from", "to", "radius"});
   if (!mapping) return std::nullopt;
-  const auto from = mapping->require("from");
-  const auto to = mapping->require("to");
-  const auto radius = mapping->require("radius");
-  const auto a = from ? from->vector(coordinate(units)) : std::nullopt;
-  const auto b = to ? to->vector(coordinate(units)) : std::nullopt;
-  const auto r = radius ? radius->number(positive_length(units)) : std::nullopt;
-  if (!a || !b || !r) return std::nullopt;
-  return model::LinkCapsule{tool, kFlange, *a, *b, *r};
+  const auto shape = read_capsule_shape(*mapping, units);
+  if (!shape) return std::nullopt;
+  return model::LinkCapsule{tool, kFlange, shape->a, shape->b, shape->radius};
 }
 
 model::Tool read_tool(const std::string& name, const Field& field, const Units& units) {
