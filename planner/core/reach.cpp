@@ -8,7 +8,7 @@ namespace interlace::core {
 namespace {
 
 /// Distances here are sums of a few lengths below some metres [m].
-constexpr double kRounding = 1e-9;
+constexpr double kReachRounding = 1e-9;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ ReachableVolume reachable_volume(const model::Robot& robot) {
                                      {Vector3::Zero(), wrist},
                                      {Vector3::Zero(), wrist},
                                      {{0, 0, -p.c4}, wrist}}};
-  const double error = robot.controller.path_error + kRounding;
+  const double error = robot.controller.path_error + kReachRounding;
   ReachableVolume volume{robot.X_WB * centre, 0};
   for (const auto& c : robot.model.capsules) {
     const Pivot& pivot = pivots[c.link];

@@ -10,8 +10,8 @@ namespace interlace::core {
 
 namespace {
 
-constexpr double kDrawnBack = 0.005;  ///< of a slab's faces from the bodies at home [m]
-constexpr double kRounding = 1e-9;    ///< [m]
+constexpr double kDrawnBack = 0.005;    ///< of a slab's faces from the bodies at home [m]
+constexpr double kZoneRounding = 1e-9;  ///< [m]
 
 using Capsules = std::vector<model::Capsule>;
 
@@ -73,7 +73,7 @@ double half_shadow(const Body& body, const Vector3& u) {
 bool may_be_in(const model::Box& box, const Body& body, double reach) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const double middle = body.centre[axis];
-    const double half = half_shadow(body, Vector3::Unit(axis)) + body.radius + reach + kRounding;
+    const double half = half_shadow(body, Vector3::Unit(axis)) + body.radius + reach + kZoneRounding;
     if (middle + half < box.min[axis] || middle - half > box.max[axis]) return false;
   }
   return true;
@@ -123,7 +123,7 @@ void SharedZone::divide(model::RobotIndex a, model::RobotIndex b) {
 
 bool SharedZone::may_hold(model::RobotIndex robot, const Body& body, double reach) const {
   if (cell_.planning.zone) return may_be_in(*cell_.planning.zone, body, reach);
-  const double around = body.radius + reach + kRounding;
+  const double around = body.radius + reach + kZoneRounding;
   return std::any_of(shares_[robot].begin(), shares_[robot].end(), [&](const Share& share) {
     const double ahead = share.towards.dot(body.centre) + half_shadow(body, share.towards) + around;
     return ahead > share.face && distance_to_axis(share.volume.centre, body) - around <= share.volume.radius;
