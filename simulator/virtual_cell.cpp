@@ -120,6 +120,7 @@ class World {
     core::PlannerOptions o;
     o.strategy = options_.strategy;
     o.escapes = cell_->planning.escapes;
+    o.patience = model::from_seconds(cell_->planning.patience);
     o.lead = model::from_seconds(cell_->planning.lead.value_or(0));
     o.confirm = o.lead;
     o.start_tolerance = model::from_seconds(cell_->planning.start_tolerance.value_or(0));

@@ -43,6 +43,7 @@ core::PlannerOptions core_options(const model::Cell& cell, const PlannerNodeOpti
   o.start_tolerance = model::from_seconds(cell.planning.start_tolerance.value_or(kStartTolerance));
   o.posture_timeout = kPostureTimeout;
   o.escapes = cell.planning.escapes;
+  o.patience = model::from_seconds(cell.planning.patience);
   o.escape_prefix = fmt::format("escape-{:016x}-", incarnation);  // no client and no proxy has heard of such an id before
   return o;
 }
