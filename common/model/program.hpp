@@ -11,8 +11,8 @@ namespace interlace::model {
 struct ProgramStep {
   MotionRequest motion;
   int priority = 0;
-  double at = 0;                   ///< release time after the start of the program [s]
-  std::optional<double> deadline;  ///< after its release [s]
+  double at = 0;                                  ///< release time after the start of the program [s]
+  std::optional<double> deadline = std::nullopt;  ///< after its release [s]
 };
 
 /// Something other than a command that happens while a program runs.

@@ -18,7 +18,7 @@ namespace interlace::app {
 namespace {
 
 constexpr double kLongestPatience = 1e6;  // [s]
-constexpr double kLongestWait = 60;  // [s] of latency, lead and tolerance: beyond it a number is a mistake
+constexpr double kLongestWait = 60;       // [s] of latency, lead and tolerance: beyond it a number is a mistake
 constexpr double kLargestSpeedError = 0.5;
 constexpr double kFinestResolution = 0.0005;  // [s] not included; finer maps cost much and tell nothing
 constexpr double kCoarsestResolution = 1;     // [s]
