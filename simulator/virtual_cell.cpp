@@ -46,14 +46,11 @@ struct VirtualRobot {
   proxy::Executor executor;
 };
 
-/// What clients ask for.
-using Request =
-    std::variant<model::CommandSubmitted, model::CommandCancelled, model::HoldRequested, model::ResumeRequested, model::QueueReplaced>;
-using Message = std::variant<Request, model::PostureReported, model::ExecutionReported, model::Dispatch, model::Withdrawal>;
+using Message = std::variant<model::ClientRequest, model::PostureReported, model::ExecutionReported, model::Dispatch, model::Withdrawal>;
 
 struct Release {
   Instant at;
-  Request request;
+  model::ClientRequest request;
 };
 
 model::CommandSubmitted command_of(std::string id, const model::RobotName& robot, const model::ProgramStep& step) {
@@ -61,7 +58,7 @@ model::CommandSubmitted command_of(std::string id, const model::RobotName& robot
 }
 
 /// `number` counts the program's events, from 1.
-Request request_of(const model::ProgramEvent& event, std::size_t number) {
+model::ClientRequest request_of(const model::ProgramEvent& event, std::size_t number) {
   using What = model::ProgramEvent::What;
   const model::CommandId id{fmt::format("event-{}", number)};
   switch (event.what) {
@@ -251,7 +248,7 @@ class World {
       } else if (const auto* w = std::get_if<model::Withdrawal>(&message)) {
         VirtualRobot& r = proxy_of(w->robot);
         act(r, r.executor.on(*w, moment(now_)));
-      } else if (const auto* q = std::get_if<Request>(&message)) {
+      } else if (const auto* q = std::get_if<model::ClientRequest>(&message)) {
         decide([&] { return std::visit([&](const auto& request) { return planner_.on(request, now_); }, *q); });
       } else if (const auto* p = std::get_if<model::PostureReported>(&message)) {
         decide([&] { return planner_.on(*p, now_); });

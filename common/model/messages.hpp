@@ -74,6 +74,9 @@ struct QueueReplaced {
   std::vector<CommandSubmitted> commands;  ///< for that robot, in their order; their ids are new
 };
 
+/// All that a client can ask for.
+using ClientRequest = std::variant<CommandSubmitted, CommandCancelled, StopRequested, HoldRequested, ResumeRequested, QueueReplaced>;
+
 enum class CommandState : std::uint8_t {
   queued,     ///< admitted, waits for its turn
   waiting,    ///< its robot is free but it cannot start: see reason and conflicts

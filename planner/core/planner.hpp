@@ -75,6 +75,9 @@ class Planner {
   /// The whole state, for the heartbeat. `cell`, `fingerprint` and `incarnation` are the caller's to fill.
   [[nodiscard]] model::PlannerState state(Instant now) const;
 
+  /// A client holds it.
+  [[nodiscard]] bool holds(model::RobotIndex robot) const { return robots_[robot].held; }
+
   /// Between decisions: builds the next map that one of the coming ones will most likely ask for. False when there is none left to build.
   /// Changes how long decisions take and nothing else. One call takes as long as one map.
   bool prepare();

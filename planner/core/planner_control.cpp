@@ -29,6 +29,11 @@ std::string commands_text(std::size_t n) {
   return fmt::format("{} command{}", n, n == 1 ? "" : "s");
 }
 
+/// "1 command waits", "3 commands wait".
+std::string waiting_text(std::size_t n) {
+  return fmt::format("{} wait{}", commands_text(n), n == 1 ? "s" : "");
+}
+
 std::string held_text(const RobotRecord& r) {
   return fmt::format("{} is held: it starts nothing until it is resumed", r.robot->name.str());
 }
@@ -70,8 +75,8 @@ Decisions Planner::on(const model::HoldRequested& event, Instant now) {
   RobotRecord& r = robots_[*index];
   const bool was_held = r.held;
   hold(r, out);
-  answer.text = fmt::format("{}{}; {} wait", was_held ? "it was held already" : "held", r.committed ? "; what it has begun it ends" : "",
-                            commands_text(r.queue.size()));
+  answer.text = fmt::format("{}{}; {}", was_held ? "it was held already" : "held", r.committed ? "; what it has begun it ends" : "",
+                            waiting_text(r.queue.size()));
   publish(answer, out);
   schedule(now, out);
   return out;
@@ -90,7 +95,7 @@ Decisions Planner::on(const model::ResumeRequested& event, Instant now) {
     return out;
   }
   RobotRecord& r = robots_[*index];
-  answer.text = fmt::format("{}; {} wait", r.held ? "resumed" : "it was not held", commands_text(r.queue.size()));
+  answer.text = fmt::format("{}; {}", r.held ? "resumed" : "it was not held", waiting_text(r.queue.size()));
   if (r.held) {
     r.held = false;
     changed(r);
