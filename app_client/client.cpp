@@ -67,9 +67,9 @@ void Client::add_links() {
   }
 }
 
-model::Result<model::CommandId, SubmitError> Client::submit(const model::RobotName& robot, const model::MotionRequest& motion,
-                                                            int priority) {
-  return submit(model::CommandSubmitted{model::CommandId{make_id("cmd")}, robot, motion, priority});
+model::Result<model::CommandId, SubmitError> Client::submit(const model::RobotName& robot, const model::MotionRequest& motion, int priority,
+                                                            std::optional<double> deadline) {
+  return submit(model::CommandSubmitted{model::CommandId{make_id("cmd")}, robot, motion, priority, deadline});
 }
 
 model::Result<model::CommandId, SubmitError> Client::submit(const model::CommandSubmitted& command) {
@@ -90,6 +90,32 @@ model::Result<model::CommandId, SubmitError> Client::stop(const model::RobotName
   if (links_.count(robot) == 0) return model::unexpected(SubmitError::unknown_robot);
   model::CommandId id{make_id("stop")};
   (void)ledger_.stop({id, robot});  // the id was never used
+  return id;
+}
+
+model::Result<model::CommandId, SubmitError> Client::hold(const model::RobotName& robot) {
+  if (links_.count(robot) == 0) return model::unexpected(SubmitError::unknown_robot);
+  model::CommandId id{make_id("hold")};
+  (void)ledger_.hold({id, robot});  // the id was never used
+  return id;
+}
+
+model::Result<model::CommandId, SubmitError> Client::resume(const model::RobotName& robot) {
+  if (links_.count(robot) == 0) return model::unexpected(SubmitError::unknown_robot);
+  model::CommandId id{make_id("resume")};
+  (void)ledger_.resume({id, robot});  // the id was never used
+  return id;
+}
+
+model::Result<model::CommandId, SubmitError> Client::replace(const model::RobotName& robot,
+                                                             const std::vector<model::CommandSubmitted>& commands) {
+  if (links_.count(robot) == 0) return model::unexpected(SubmitError::unknown_robot);
+  for (const auto& command : commands) {
+    if (command.robot != robot) return model::unexpected(SubmitError::unknown_robot);
+    if (!model::is_valid_name(command.id.str())) return model::unexpected(SubmitError::bad_id);
+  }
+  model::CommandId id{make_id("replace")};
+  if (!ledger_.replace({id, robot, commands})) return model::unexpected(SubmitError::id_in_use);
   return id;
 }
 

@@ -57,15 +57,24 @@ class Client {
   /// True after another planner has taken over: everything that was not final is lost, see Ledger.
   [[nodiscard]] bool planner_replaced() const { return replaced_; }
 
-  /// Submits under an id of its own making.
+  /// Submits under an id of its own making. `deadline`: to be completed within this after the planner took it [s].
   [[nodiscard]] model::Result<model::CommandId, SubmitError> submit(const model::RobotName& robot, const model::MotionRequest& motion,
-                                                                    int priority = 0);
+                                                                    int priority = 0, std::optional<double> deadline = std::nullopt);
   /// Submits under the id in `command`; the planner answers an id it knows without executing it again.
   [[nodiscard]] model::Result<model::CommandId, SubmitError> submit(const model::CommandSubmitted& command);
   /// Gives up a command that has not started.
   [[nodiscard]] model::Result<model::CommandId, SubmitError> cancel(const model::RobotName& robot, const model::CommandId& id);
   /// Gives up all commands of the robot that have not started; the id is the request's own, and completed once it is done.
   [[nodiscard]] model::Result<model::CommandId, SubmitError> stop(const model::RobotName& robot);
+
+  /// The robot ends what it has begun and starts nothing more, not even an escape, until it is resumed; the ids are the requests' own, and
+  /// completed once that is so.
+  [[nodiscard]] model::Result<model::CommandId, SubmitError> hold(const model::RobotName& robot);
+  [[nodiscard]] model::Result<model::CommandId, SubmitError> resume(const model::RobotName& robot);
+  /// `commands`, whose ids are new, instead of all that waits for the robot: all of them or, when one is impossible, none, and the queue
+  /// stays as it was. The id is the request's own: completed when they were taken, else rejected. At most dds::kMaxReplacement.
+  [[nodiscard]] model::Result<model::CommandId, SubmitError> replace(const model::RobotName& robot,
+                                                                     const std::vector<model::CommandSubmitted>& commands);
 
   /// Called from spin_until for everything new about any command of the cell, also those of other clients and escapes (Answer::own).
   /// Must not call functions that spin.

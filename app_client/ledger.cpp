@@ -1,6 +1,7 @@
 #include "app_client/ledger.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace interlace::client {
 
@@ -16,7 +17,7 @@ bool same(const std::vector<model::EscapeRefusal>& a, const std::vector<model::E
 
 /// Saying it again would tell nobody anything new.
 bool same_news(const model::CommandStatus& a, const model::CommandStatus& b) {
-  return a.state == b.state && a.reason == b.reason && a.text == b.text && a.start == b.start && a.end == b.end &&
+  return a.state == b.state && a.reason == b.reason && a.text == b.text && a.start == b.start && a.end == b.end && a.verdict == b.verdict &&
          same(a.refusals, b.refusals);
 }
 
@@ -52,6 +53,12 @@ void Ledger::cancel(const model::RobotName& robot, const model::CommandId& id) {
   } else {
     if (model::is_final(found->second.answer.status.state)) return;
     if (std::holds_alternative<model::CommandSubmitted>(found->second.request) && !found->second.sent) {
+      for (auto& [other, order] : orders_) {  // it may be part of a replacement that is not sent yet
+        auto* replacement = std::get_if<model::QueueReplaced>(&order.request);
+        if (!replacement) continue;
+        auto& commands = replacement->commands;
+        commands.erase(std::remove_if(commands.begin(), commands.end(), [&](const auto& c) { return c.id == id; }), commands.end());
+      }
       close(id, CommandState::cancelled, Reason::on_request, "given up before it was sent");
       return;
     }
@@ -61,13 +68,86 @@ void Ledger::cancel(const model::RobotName& robot, const model::CommandId& id) {
 
 bool Ledger::stop(const model::StopRequested& request) {
   if (entries_.count(request.id) > 0) return false;
-  const auto line = lines_.find(request.robot);
-  while (line != lines_.end() && !line->second.unsent.empty()) {
-    close(model::CommandId{line->second.unsent.back()}, CommandState::cancelled, Reason::on_request, "given up before it was sent");
+  close_unsent(request.robot, Reason::on_request, "given up before it was sent");
+  return give(request, request.id, request.robot);
+}
+
+bool Ledger::hold(const model::HoldRequested& request) {
+  return give(request, request.id, request.robot);
+}
+
+bool Ledger::resume(const model::ResumeRequested& request) {
+  return give(request, request.id, request.robot);
+}
+
+bool Ledger::replace(const model::QueueReplaced& request) {
+  std::set<model::CommandId> ids{request.id};
+  for (const auto& command : request.commands) {
+    if (!ids.insert(command.id).second) return false;
   }
-  enter(request, request.id, request.robot);
-  orders_.emplace(request.id, Order{request, ++last_turn_, std::nullopt});
+  if (std::any_of(ids.begin(), ids.end(), [&](const auto& id) { return entries_.count(id) > 0; })) return false;
+  close_unsent(request.robot, Reason::replaced, "replaced before it was sent by " + request.id.str());
+  Line& line = lines_[request.robot];
+  for (const auto& command : request.commands) {
+    enter(command, command.id, request.robot);
+    line.told.push_back(command.id);
+  }
+  return give(request, request.id, request.robot);
+}
+
+/// Takes a request over that is neither a command nor the end of one. False when the id is already known.
+bool Ledger::give(const Request& request, const model::CommandId& id, const model::RobotName& robot) {
+  if (entries_.count(id) > 0) return false;
+  enter(request, id, robot);
+  orders_.emplace(id, Order{request, ++last_turn_, std::nullopt});
   return true;
+}
+
+/// What of the robot was not sent yet is not sent any more, a replacement included.
+void Ledger::close_unsent(const model::RobotName& robot, Reason reason, const std::string& text) {
+  const auto line = lines_.find(robot);
+  if (line == lines_.end()) return;
+  if (const Order* replacement = replacement_of(robot); replacement && !replacement->sent) {
+    const auto request = std::get<model::QueueReplaced>(replacement->request);
+    for (const auto& command : request.commands) close(command.id, CommandState::cancelled, reason, text);
+    close(request.id, CommandState::cancelled, reason, text);
+  }
+  while (!line->second.unsent.empty()) close(model::CommandId{line->second.unsent.back()}, CommandState::cancelled, reason, text);
+}
+
+/// The replacement of a robot's queue that is not answered, if there is one.
+const Ledger::Order* Ledger::replacement_of(const model::RobotName& robot) const {
+  for (const auto& [id, order] : orders_) {
+    const auto* request = std::get_if<model::QueueReplaced>(&order.request);
+    if (request && request->robot == robot) return &order;
+  }
+  return nullptr;
+}
+
+/// A replacement goes after the command on its way: that one is to be replaced, too.
+bool Ledger::held_back(const Order& order) const {
+  const auto* request = std::get_if<model::QueueReplaced>(&order.request);
+  if (!request || order.sent) return false;
+  const auto line = lines_.find(request->robot);
+  return line != lines_.end() && line->second.asked.has_value();
+}
+
+/// The commands of a replacement are on their way with it.
+void Ledger::mark_sent(const Request& request, LocalTime now) {
+  const auto* replacement = std::get_if<model::QueueReplaced>(&request);
+  if (!replacement) return;
+  for (const auto& command : replacement->commands) entries_.at(command.id).sent = Sending{now, now};
+}
+
+/// The answer to a replacement is one to each of its commands, whose own may be lost.
+void Ledger::settle_replacement(const model::QueueReplaced& request, const model::CommandStatus& status, LocalTime now) {
+  for (const auto& command : request.commands) {
+    if (status.state == CommandState::completed) {
+      entries_.at(command.id).heard = now;
+    } else {
+      close(command.id, CommandState::rejected, status.reason, "its replacement was refused: " + status.text);
+    }
+  }
 }
 
 void Ledger::refuse(const model::CommandId& id, const std::string& text) {
@@ -81,6 +161,10 @@ void Ledger::close(const model::CommandId& id, CommandState state, Reason reason
   if (found == entries_.end() || model::is_final(found->second.answer.status.state)) return;
   Answer& answer = found->second.answer;
   remove_from_line(answer.status.robot, id);
+  // A replacement that nobody answered takes its commands along.
+  if (const auto* replacement = std::get_if<model::QueueReplaced>(&found->second.request)) {
+    for (const auto& command : std::vector(replacement->commands)) close(command.id, state, reason, text);
+  }
   answer.told = false;
   answer.status.state = state;
   answer.status.reason = reason;
@@ -141,6 +225,9 @@ void Ledger::on_status(std::uint64_t incarnation, const model::CommandStatus& st
   // An escape is the planner's own and not given up for a client: any news of it is the answer.
   if (model::is_final(status.state) || status.state == CommandState::started || status.escape) orders_.erase(status.id);
   if (was_final) return;
+  if (const auto* replacement = std::get_if<model::QueueReplaced>(&entry.request); replacement && model::is_final(status.state)) {
+    settle_replacement(*replacement, status, now);
+  }
   if (Line& line = lines_[status.robot]; line.asked == status.id) {
     line.asked.reset();
     line.told.push_back(status.id);
@@ -192,18 +279,21 @@ std::vector<Request> Ledger::due(LocalTime now) {
   for (auto& [id, order] : orders_) orders.push_back(&order);
   std::sort(orders.begin(), orders.end(), [](const Order* a, const Order* b) { return a->turn < b->turn; });
   for (Order* order : orders) {
+    if (held_back(*order)) continue;
     if (!order->sent) {
       order->sent = Sending{now, now};
+      mark_sent(order->request, now);
       out.push_back(order->request);
     } else if (resend(*order->sent, now, lives)) {
       out.push_back(order->request);
     }
   }
   for (auto& [robot, line] : lines_) {
+    const bool replacing = replacement_of(robot) != nullptr;
     if (line.asked) {
       Entry& entry = entries_.at(*line.asked);
       if (resend(*entry.sent, now, lives)) out.push_back(entry.request);
-    } else if (!line.unsent.empty()) {
+    } else if (!line.unsent.empty() && !replacing) {
       line.asked = line.unsent.front();
       line.unsent.pop_front();
       Entry& entry = entries_.at(*line.asked);
@@ -211,7 +301,7 @@ std::vector<Request> Ledger::due(LocalTime now) {
       out.push_back(entry.request);
     }
     // The first in the line is the one that moves; those behind it have every reason to be silent.
-    if (!line.told.empty()) {
+    if (!line.told.empty() && !replacing) {
       Entry& entry = entries_.at(line.told.front());
       if (now - std::max(entry.heard, entry.sent->last) >= patience_.silence) {
         entry.sent->last = now;
@@ -233,17 +323,18 @@ std::optional<LocalTime> Ledger::next_due() const {
   for (const auto& [id, order] : orders_) {
     if (order.sent) {
       consider_sending(*order.sent);
-    } else if (lives) {
+    } else if (lives && !held_back(order)) {
       consider(looked_);
     }
   }
   for (const auto& [robot, line] : lines_) {
+    const bool replacing = replacement_of(robot) != nullptr;
     if (line.asked) {
       consider_sending(*entries_.at(*line.asked).sent);
-    } else if (lives && !line.unsent.empty()) {
+    } else if (lives && !line.unsent.empty() && !replacing) {
       consider(looked_);
     }
-    if (lives && !line.told.empty()) {
+    if (lives && !line.told.empty() && !replacing) {
       const Entry& entry = entries_.at(line.told.front());
       consider(std::max(entry.heard, entry.sent->last) + patience_.silence);
     }

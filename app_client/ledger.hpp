@@ -19,7 +19,7 @@ namespace interlace::client {
 using LocalTime = std::chrono::steady_clock::time_point;
 using LocalDuration = std::chrono::steady_clock::duration;
 
-using Request = std::variant<model::CommandSubmitted, model::CommandCancelled, model::StopRequested>;
+using Request = model::ClientRequest;
 
 /// How long a client waits for what.
 struct Patience {
@@ -52,6 +52,14 @@ class Ledger {
 
   /// Gives up everything of the robot that has not started, of all clients. False when the id is already known.
   bool stop(const model::StopRequested& request);
+
+  /// Its robot starts nothing more, or again. False when the id is already known.
+  bool hold(const model::HoldRequested& request);
+  bool resume(const model::ResumeRequested& request);
+
+  /// Other commands instead of all that waits for the robot, here and with the planner. It is sent once the command on its way is
+  /// answered, and nothing after it before it is answered itself. False when any of its ids is already known; then nothing changes.
+  bool replace(const model::QueueReplaced& request);
 
   /// `text` says why the request of that id cannot be sent at all: it is rejected locally.
   void refuse(const model::CommandId& id, const std::string& text);
@@ -105,6 +113,12 @@ class Ledger {
   [[nodiscard]] bool resend(Sending& sent, LocalTime now, bool lives) const;
   Entry& enter(const Request& request, const model::CommandId& id, const model::RobotName& robot);
   void close(const model::CommandId& id, model::CommandState state, model::Reason reason, std::string text);
+  bool give(const Request& request, const model::CommandId& id, const model::RobotName& robot);
+  void close_unsent(const model::RobotName& robot, model::Reason reason, const std::string& text);
+  void settle_replacement(const model::QueueReplaced& request, const model::CommandStatus& status, LocalTime now);
+  void mark_sent(const Request& request, LocalTime now);
+  [[nodiscard]] const Order* replacement_of(const model::RobotName& robot) const;
+  [[nodiscard]] bool held_back(const Order& order) const;
   void remove_from_line(const model::RobotName& robot, const model::CommandId& id);
   void give_up_orders(LocalTime now);
   void give_up_unanswered(Line& line, LocalTime now);

@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
     app::add_common(cli);
     cli.require_subcommand(1);
     const std::vector<commands::Command> all{commands::run(cli),   commands::send(cli),   commands::status(cli),
-                                             commands::watch(cli), commands::cancel(cli), commands::stop(cli)};
+                                             commands::watch(cli), commands::cancel(cli), commands::stop(cli),
+                                             commands::hold(cli),  commands::resume(cli), commands::replace(cli)};
     if (const auto code = app::parse(cli, argc, argv)) return app::to_int(*code);
     for (const auto& command : all) {
       if (command.options->parsed()) return app::to_int(command.run(interrupts));

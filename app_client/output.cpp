@@ -38,6 +38,9 @@ std::string describe(const model::CommandStatus& status) {
   using model::CommandState;
   std::string text = model::to_string(status.state);
   // Why it was late was said when its start was decided.
+  if (status.verdict != model::DeadlineVerdict::none && status.verdict != model::DeadlineVerdict::open) {
+    text += fmt::format(" (deadline: {})", model::to_string(status.verdict));
+  }
   const bool under_way = status.state == CommandState::started || status.state == CommandState::completed;
   if (under_way && (status.reason == model::Reason::delayed || status.reason == model::Reason::escape)) return text;
   if (status.reason != model::Reason::none) text += fmt::format(": {}", model::to_string(status.reason));
@@ -53,6 +56,7 @@ std::string describe(const model::RobotStatus& robot, model::Instant now, std::s
   std::string line = fmt::format("{:<{}}  {:<9}  {:>6}", robot.name.str(), width, model::to_string(robot.mode), robot.queued);
   if (!robot.current.empty()) line += "  " + robot.current.str();
   if (!robot.serves.empty()) line += fmt::format(" (escape for {})", robot.serves.str());
+  if (robot.held) line += "  HELD";
   for (const auto& tool : robot.holds) line += fmt::format("{}{}", &tool == &robot.holds.front() ? "  holds " : ", ", tool.str());
   const bool waits = robot.mode != model::RobotMode::moving || robot.reason == model::Reason::escape;  // why an escape moves is news
   if (!waits || robot.reason == model::Reason::none) return line;
@@ -90,6 +94,8 @@ nlohmann::json to_json(const Answer& answer) {
           {"start_s", seconds_or_null(s.start)},
           {"end_s", seconds_or_null(s.end)},
           {"delay_s", s.delay},
+          {"deadline_s", seconds_or_null(s.deadline)},
+          {"deadline_verdict", model::to_string(s.verdict)},
           {"conflicts", app::to_json(s.conflicts)},
           {"refusals", app::to_json(s.refusals)}};
 }
@@ -103,6 +109,7 @@ nlohmann::json to_json(const model::RobotStatus& r) {
           {"command", app::name_or_null(r.current.str())},
           {"serves", app::name_or_null(r.serves.str())},
           {"holds", std::move(holds)},
+          {"held", r.held},
           {"reason", model::to_string(r.reason)},
           {"explanation", r.text},
           {"conflicts", app::to_json(r.conflicts)},

@@ -20,6 +20,7 @@ std::vector<PlannedCommand> release_plan(const model::Program& program, const st
       planned.command.robot = robot;
       planned.command.motion = steps[i].motion;
       planned.command.priority = steps[i].priority;
+      planned.command.deadline = steps[i].deadline;
       planned.release = released[r];
       planned.ordinal = i + 1;
       planned.of = steps.size();

@@ -79,7 +79,7 @@ ExitCode judge(const std::vector<app::RunReport>& reports) {
   bool unserved = false;
   for (const auto& r : reports) {
     collision = collision || (r.collisions && *r.collisions > 0);
-    unserved = unserved || r.completed < r.submitted;
+    unserved = unserved || r.completed + r.cancelled < r.submitted;  // those that the program itself cancels are not missed
   }
   return collision ? ExitCode::collision : unserved ? ExitCode::unserved : ExitCode::ok;
 }

@@ -46,14 +46,37 @@ struct VirtualRobot {
   proxy::Executor executor;
 };
 
-using Message = std::variant<model::CommandSubmitted, model::PostureReported, model::ExecutionReported, model::Dispatch, model::Withdrawal>;
+using Message = std::variant<model::ClientRequest, model::PostureReported, model::ExecutionReported, model::Dispatch, model::Withdrawal>;
 
 struct Release {
   Instant at;
-  model::CommandSubmitted command;
+  model::ClientRequest request;
 };
 
-/// Commands in the order of their release, robots in turn where several come at once.
+model::CommandSubmitted command_of(std::string id, const model::RobotName& robot, const model::ProgramStep& step) {
+  return {model::CommandId{std::move(id)}, robot, step.motion, step.priority, step.deadline};
+}
+
+/// `number` counts the program's events, from 1.
+model::ClientRequest request_of(const model::ProgramEvent& event, std::size_t number) {
+  using What = model::ProgramEvent::What;
+  const model::CommandId id{fmt::format("event-{}", number)};
+  switch (event.what) {
+    case What::hold: return model::HoldRequested{id, event.robot};
+    case What::resume: return model::ResumeRequested{id, event.robot};
+    case What::cancel:
+      return model::CommandCancelled{model::CommandId{fmt::format("{}-{}", event.robot.str(), event.command)}, event.robot};
+    case What::replace: break;
+  }
+  model::QueueReplaced replacement{id, event.robot, {}};
+  for (const model::ProgramStep& step : event.commands) {
+    replacement.commands.push_back(
+        command_of(fmt::format("{}-event-{}-{}", event.robot.str(), number, replacement.commands.size() + 1), event.robot, step));
+  }
+  return replacement;
+}
+
+/// Commands and events in the order of their time; where several come at once commands first, robots in turn.
 std::deque<Release> releases_of(const model::Program& program) {
   std::vector<Release> all;
   std::size_t longest = 0;
@@ -61,13 +84,11 @@ std::deque<Release> releases_of(const model::Program& program) {
   for (std::size_t i = 0; i < longest; ++i) {
     for (const auto& [robot, steps] : program.robots) {
       if (i >= steps.size()) continue;
-      model::CommandSubmitted c;
-      c.id = model::CommandId{fmt::format("{}-{}", robot.str(), i + 1)};
-      c.robot = robot;
-      c.motion = steps[i].motion;
-      c.priority = steps[i].priority;
-      all.push_back({model::at_seconds(steps[i].at), std::move(c)});
+      all.push_back({model::at_seconds(steps[i].at), command_of(fmt::format("{}-{}", robot.str(), i + 1), robot, steps[i])});
     }
+  }
+  for (std::size_t i = 0; i < program.events.size(); ++i) {
+    all.push_back({model::at_seconds(program.events[i].at), request_of(program.events[i], i + 1)});
   }
   std::stable_sort(all.begin(), all.end(), [](const Release& a, const Release& b) { return a.at < b.at; });
   return {all.begin(), all.end()};
@@ -82,7 +103,7 @@ class World {
         observer_(*cell_, options.check_period, std::numeric_limits<double>::infinity()),
         collector_(Instant{}),
         releases_(releases_of(program)),
-        total_(releases_.size()),
+        total_(program.size()),
         postures_(cell_->robots.size()),
         held_(cell_->robots.size()) {
     planner_.maps().on_build(options.on_map);
@@ -97,7 +118,8 @@ class World {
       watch_until(*next);
       now_ = std::max(now_, *next);
       step();
-      if (options_.progress) options_.progress(model::to_seconds(now_), total_ - releases_.size() - collector_.open(), total_);
+      if (options_.progress)
+        options_.progress(model::to_seconds(now_), std::min(total_, collector_.rows().size() - collector_.open()), total_);
       if (releases_.empty() && collector_.all_final()) break;
     }
     watch_until(now_ + model::from_seconds(options_.trace_period));
@@ -120,6 +142,7 @@ class World {
     core::PlannerOptions o;
     o.strategy = options_.strategy;
     o.escapes = cell_->planning.escapes;
+    o.patience = model::from_seconds(cell_->planning.patience);
     o.lead = model::from_seconds(cell_->planning.lead.value_or(0));
     o.confirm = o.lead;
     o.start_tolerance = model::from_seconds(cell_->planning.start_tolerance.value_or(0));
@@ -156,8 +179,13 @@ class World {
     for (auto& r : robots_) act(*r, r->executor.advance(moment(now_)));
     deliver();
     while (!releases_.empty() && releases_.front().at <= now_) {
-      collector_.on_submitted(releases_.front().command.id, releases_.front().command.robot, model::to_seconds(releases_.front().at));
-      mail_.emplace_back(std::move(releases_.front().command));
+      Release& next = releases_.front();
+      const auto note = [&](const model::CommandSubmitted& c) { collector_.on_submitted(c.id, c.robot, model::to_seconds(next.at)); };
+      if (const auto* command = std::get_if<model::CommandSubmitted>(&next.request)) note(*command);
+      if (const auto* replacement = std::get_if<model::QueueReplaced>(&next.request)) {
+        std::for_each(replacement->commands.begin(), replacement->commands.end(), note);
+      }
+      mail_.emplace_back(std::move(next.request));
       releases_.pop_front();
     }
     deliver();
@@ -220,8 +248,8 @@ class World {
       } else if (const auto* w = std::get_if<model::Withdrawal>(&message)) {
         VirtualRobot& r = proxy_of(w->robot);
         act(r, r.executor.on(*w, moment(now_)));
-      } else if (const auto* c = std::get_if<model::CommandSubmitted>(&message)) {
-        decide([&] { return planner_.on(*c, now_); });
+      } else if (const auto* q = std::get_if<model::ClientRequest>(&message)) {
+        decide([&] { return std::visit([&](const auto& request) { return planner_.on(request, now_); }, *q); });
       } else if (const auto* p = std::get_if<model::PostureReported>(&message)) {
         decide([&] { return planner_.on(*p, now_); });
       } else if (const auto* e = std::get_if<model::ExecutionReported>(&message)) {

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
 
+#include "app_client/output.hpp"
 #include "common/app/command_line.hpp"
 
 namespace interlace::client::commands {
@@ -68,6 +71,41 @@ bool check_robot(const Client& client, const std::string& robot) {
   for (const auto& r : robots) names += (names.empty() ? "" : ", ") + r.name.str();
   fmt::print(stderr, "unknown robot \"{}\", cell {} has {}\n", robot, client.planner()->cell, names);
   return false;
+}
+
+app::ExitCode ask_each(const CellOptions& options, const std::vector<std::string>& robots, Interrupts& interrupts,
+                       const std::function<model::Result<model::CommandId, SubmitError>(Client&, const model::RobotName&)>& give,
+                       const std::string& unanswered) {
+  Client client{client_options(options)};
+  const Interrupts::Scope scope{interrupts, [&] { client.wake(); }};
+  if (const auto code = connect(client, options, interrupts)) return *code;
+  std::vector<model::RobotName> names;
+  for (const auto& robot : robots) {
+    if (!check_robot(client, robot)) return app::ExitCode::bad_input;
+    names.emplace_back(robot);
+  }
+  if (names.empty()) {
+    for (const auto& robot : client.planner()->robots) names.push_back(robot.name);
+  }
+  std::vector<model::CommandId> requests;
+  for (const auto& robot : names) {
+    if (const auto id = give(client, robot)) requests.push_back(*id);
+  }
+  const auto answered = [&](const model::CommandId& id) { return model::is_final(client.find(id)->status.state); };
+  (void)client.spin_until(after_seconds(options.timeout),
+                          [&] { return interrupts.requested() || std::all_of(requests.begin(), requests.end(), answered); });
+  bool all_told = true;
+  nlohmann::json json = nlohmann::json::array();
+  for (const auto& id : requests) {
+    const Answer& answer = *client.find(id);
+    const bool told = answer.told && model::is_final(answer.status.state);
+    all_told = all_told && told;
+    json.push_back(to_json(answer));
+    if (!options.json) std::cout << fmt::format("{}: {}\n", answer.status.robot.str(), told ? answer.status.text : unanswered);
+  }
+  if (options.json) std::cout << json.dump(2) << '\n';
+  std::cout << std::flush;
+  return all_told ? app::ExitCode::ok : app::ExitCode::unavailable;
 }
 
 bool write_file(const std::string& path, const std::string& text) {

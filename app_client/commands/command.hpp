@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app_client/client.hpp"
 #include "app_client/interrupts.hpp"
@@ -23,6 +24,9 @@ struct Command {
 [[nodiscard]] Command watch(CLI::App& parent);
 [[nodiscard]] Command cancel(CLI::App& parent);
 [[nodiscard]] Command stop(CLI::App& parent);
+[[nodiscard]] Command hold(CLI::App& parent);
+[[nodiscard]] Command resume(CLI::App& parent);
+[[nodiscard]] Command replace(CLI::App& parent);
 
 /// What every sub-command needs to find its cell.
 struct CellOptions {
@@ -46,6 +50,13 @@ void add_cell_options(CLI::App& command, CellOptions& options);
 
 /// Says so on stderr when the cell has no robot of that name.
 [[nodiscard]] bool check_robot(const Client& client, const std::string& robot);
+
+/// Gives one request for each of `robots`, all of the cell when it is empty, waits for the answers and prints them. `unanswered` is what is
+/// said of a robot for which none came.
+[[nodiscard]] app::ExitCode ask_each(
+    const CellOptions& options, const std::vector<std::string>& robots, Interrupts& interrupts,
+    const std::function<model::Result<model::CommandId, SubmitError>(Client&, const model::RobotName&)>& give,
+    const std::string& unanswered);
 
 /// Writes `text` and a newline to the file; complains on stderr when that fails.
 [[nodiscard]] bool write_file(const std::string& path, const std::string& text);

@@ -103,7 +103,13 @@ ExitCode conduct(const Arguments& a, Client& client, const model::Program& progr
 
 ExitCode execute(const Arguments& a, Interrupts& interrupts) {
   // Everything that can be wrong without a planner is found before one is asked for.
-  if (const auto program = app::load_program(a.program, nullptr); !program) return refuse(program.error());
+  if (const auto program = app::load_program(a.program, nullptr); !program) {
+    return refuse(program.error());
+  } else if (!program->events.empty()) {
+    fmt::print(stderr, "{}: events: only interlace-sim plays them; here `interlace hold`, `resume`, `cancel` and `replace` do\n",
+               a.program);
+    return ExitCode::bad_input;
+  }
   std::optional<app::LoadedCell> cell;
   if (!a.cell_file.empty()) {
     auto loaded = app::load_cell(a.cell_file);

@@ -22,6 +22,7 @@ struct Arguments {
   MotionWords motion;
   std::string length = "mm", angle = "deg";
   int priority = 0;
+  std::optional<double> deadline;
   bool wait = true;
   double within = 600;  // [s]
 };
@@ -84,6 +85,7 @@ ExitCode execute(const Arguments& a, Interrupts& interrupts) {
   command.robot = model::RobotName{a.robot};
   command.motion = *motion;
   command.priority = a.priority;
+  command.deadline = a.deadline;
   return follow(client, command, a, interrupts);
 }
 
@@ -110,7 +112,14 @@ Command send(CLI::App& parent) {
   command->add_option("--when", a->motion.when, "of --attach and --detach: before the robot starts, or once it has arrived")
       ->check(CLI::IsMember({"start", "completion"}))
       ->capture_default_str();
-  command->add_option("--priority", a->priority, "higher goes first")->check(CLI::Range(-1000000, 1000000));
+  command->add_option("--priority", a->priority, "higher goes first where robots compete; a robot's own queue keeps its order")
+      ->check(CLI::Range(-1000000, 1000000));
+  command
+      ->add_option(
+          "--deadline", a->deadline,
+          "to be done within this many seconds after the planner took it; whether it was is reported as met, late or impossible, and it is "
+          "carried out all the same")
+      ->check(CLI::Range(0.0, 1e7));
   command->add_option("--id", a->id, "of the command; sent again, it is answered again and not executed again. Default: a new one");
   command->add_flag("--wait,!--no-wait", a->wait, "wait for the end (default), or only for the planner's first answer");
   command->add_option("--within", a->within, "with --wait: stop waiting after this many seconds")

@@ -82,6 +82,8 @@ void ReportCollector::on_status(const model::CommandStatus& status) {
   if (!status.conflicts.empty()) row.conflicts = since(origin_, status.conflicts);
   if (!status.refusals.empty()) row.refusals = status.refusals;
   note_deadlock(status);
+  if (status.deadline) row.deadline = model::to_seconds(*status.deadline - origin_);
+  row.verdict = status.verdict;
   row.delay = std::max(row.delay, status.delay);
   if (status.state >= CommandState::started && status.state != CommandState::rejected && status.state != CommandState::cancelled) {
     if (status.start) row.start = model::to_seconds(*status.start - origin_);
@@ -103,7 +105,15 @@ RunReport ReportCollector::finish(std::string strategy) const {
       ++r.submitted;
       if (row.state == CommandState::completed) ++r.completed;
       if (row.state == CommandState::rejected) ++r.rejected;
+      if (row.state == CommandState::cancelled) ++r.cancelled;
       if (!model::is_final(row.state) || row.state == CommandState::failed) ++r.unserved;
+    }
+    switch (row.verdict) {
+      case model::DeadlineVerdict::none: break;
+      case model::DeadlineVerdict::open: ++r.deadlines.open; break;
+      case model::DeadlineVerdict::met: ++r.deadlines.met; break;
+      case model::DeadlineVerdict::late: ++r.deadlines.late; break;
+      case model::DeadlineVerdict::impossible: ++r.deadlines.impossible; break;
     }
     if (row.start) first = first ? std::min(*first, *row.start) : *row.start;
     if (row.end && row.state == CommandState::completed) last = last ? std::max(*last, *row.end) : *row.end;
@@ -138,6 +148,8 @@ nlohmann::json to_json(const RunReport& r) {
                         {"start_s", or_null(row.start)},
                         {"end_s", or_null(row.end)},
                         {"delay_s", row.delay},
+                        {"deadline_s", or_null(row.deadline)},
+                        {"deadline_verdict", model::to_string(row.verdict)},
                         {"reason", model::to_string(row.reason)},
                         {"explanation", row.explanation},
                         {"conflicts", to_json(row.conflicts)},
@@ -157,9 +169,12 @@ nlohmann::json to_json(const RunReport& r) {
           {"submitted", r.submitted},
           {"completed", r.completed},
           {"rejected", r.rejected},
+          {"cancelled", r.cancelled},
           {"unserved", r.unserved},
           {"escapes", r.escapes},
           {"warnings", r.warnings},
+          {"deadlines",
+           {{"met", r.deadlines.met}, {"late", r.deadlines.late}, {"impossible", r.deadlines.impossible}, {"open", r.deadlines.open}}},
           {"collisions", or_null(r.collisions)},
           {"fixture_contacts", std::move(touched)},
           {"min_clearance_m", or_null(r.least_clearance)},
@@ -168,12 +183,27 @@ nlohmann::json to_json(const RunReport& r) {
           {"commands", std::move(commands)}};
 }
 
+namespace {
+
+/// ", deadlines: 3 met, 1 late", or nothing where there were none.
+std::string deadlines_text(const DeadlineCounts& d) {
+  std::string text;
+  for (const auto& [count, what] : {std::pair{d.met, "met"}, {d.late, "late"}, {d.impossible, "impossible"}, {d.open, "open"}}) {
+    if (count) text += fmt::format("{}{} {}", text.empty() ? ", deadlines: " : ", ", count, what);
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string summary(const RunReport& r) {
   std::string text = fmt::format("{}: {} of {} commands completed in {:.2f} s", r.strategy, r.completed, r.submitted, r.makespan);
   if (r.rejected) text += fmt::format(", {} rejected", r.rejected);
+  if (r.cancelled) text += fmt::format(", {} cancelled", r.cancelled);
   if (r.unserved) text += fmt::format(", {} unserved", r.unserved);
   if (r.escapes) text += fmt::format(", {} escapes", r.escapes);
   if (r.warnings) text += fmt::format(", {} deadlock warnings", r.warnings);
+  text += deadlines_text(r.deadlines);
   if (r.collisions && *r.collisions) text += fmt::format(", {} COLLISIONS", *r.collisions);
   if (r.least_clearance) text += fmt::format(", least clearance {:.1f} mm", 1e3 * *r.least_clearance);
   text += '\n';

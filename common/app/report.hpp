@@ -35,6 +35,8 @@ struct CommandRow {
   std::string explanation;
   std::vector<model::Conflict> conflicts;      ///< what it last waited for; their times are from the start of the run, too
   std::vector<model::EscapeRefusal> refusals;  ///< of its last deadlock: what was tried in vain
+  std::optional<double> deadline;              ///< from the start of the run [s]
+  model::DeadlineVerdict verdict = model::DeadlineVerdict::none;
 };
 
 /// How a robot touched something that never moves.
@@ -46,12 +48,18 @@ struct FixtureContact {
   double at = 0;          ///< its time [s]
 };
 
+/// Commands with a deadline, by what became of it. `open`: neither completed nor late when the run ended.
+struct DeadlineCounts {
+  std::size_t met = 0, late = 0, impossible = 0, open = 0;
+};
+
 /// What a run came to: the report of the contract (DESIGN section 8). What a program cannot know stays empty and is null in JSON.
 struct RunReport {
   std::string strategy;
   double makespan = 0;  ///< first start to last end [s]
-  std::size_t submitted = 0, completed = 0, rejected = 0, unserved = 0, escapes = 0;
-  std::size_t warnings = 0;               ///< how often a command came into a deadlock that a person was asked to resolve
+  std::size_t submitted = 0, completed = 0, rejected = 0, cancelled = 0, unserved = 0, escapes = 0;
+  std::size_t warnings = 0;  ///< how often a command came into a deadlock that a person was asked to resolve
+  DeadlineCounts deadlines;
   std::optional<std::size_t> collisions;  ///< with fixtures too
   std::vector<FixtureContact> fixture_contacts;
   std::optional<double> least_clearance;  ///< [m], from fixtures too

@@ -23,6 +23,8 @@ static_assert(wire::REASON_UNKNOWN_ID == static_cast<int>(model::Reason::unknown
 static_assert(wire::REASON_DEADLOCK == static_cast<int>(model::Reason::deadlock));
 static_assert(wire::REASON_FIXTURE_COLLISION == static_cast<int>(model::Reason::fixture_collision));
 static_assert(wire::REASON_TOOL == static_cast<int>(model::Reason::tool));
+static_assert(wire::REASON_REPLACED == static_cast<int>(model::Reason::replaced));
+static_assert(wire::DEADLINE_IMPOSSIBLE == static_cast<int>(model::DeadlineVerdict::impossible));
 static_assert(wire::AT_COMPLETION == static_cast<int>(model::ToolTime::completion));
 static_assert(wire::WAY_PLUS_Z == static_cast<int>(model::EscapeWay::plus_z));
 static_assert(wire::WAY_HOME == static_cast<int>(model::EscapeWay::home));
@@ -93,6 +95,26 @@ model::MotionRequest read_motion(Validator& v, const wire::Goal& goal, bool line
   change.when = v.known("motion.tool_time", goal.tool_time(), model::ToolTime::completion);
   motion.tools = change;
   return motion;
+}
+
+/// Of a Command or a QueueEntry: both have the same members for it.
+template <typename Wire>
+model::CommandSubmitted read_command(Validator& v, const Wire& w, const model::CommandId& id, const model::RobotName& robot, bool linear) {
+  model::CommandSubmitted command{id, robot, read_motion(v, w.motion(), linear), w.priority()};
+  command.deadline = if_present<double>(w.has_deadline(), [&] { return v.non_negative("deadline", w.deadline(), kMaxSeconds); });
+  return command;
+}
+
+std::vector<model::CommandSubmitted> read_queue(Validator& v, const std::vector<wire::QueueEntry>& found, const model::RobotName& robot) {
+  v.require(found.size() <= kMaxReplacement, [&] { return "queue: " + std::to_string(found.size()) + " are too many"; });
+  std::vector<model::CommandSubmitted> commands;
+  for (const wire::QueueEntry& entry : found) {
+    if (!v.ok()) break;
+    const auto kind = v.known("queue.kind", entry.kind(), wire::COMMAND_JOINT);  // of the kinds only these two are motions
+    commands.push_back(
+        read_command(v, entry, model::CommandId{v.name("queue.id", entry.id().to_string())}, robot, kind == wire::COMMAND_LINEAR));
+  }
+  return commands;
 }
 
 std::vector<model::ToolName> read_tools(Validator& v, const char* field, const wire::Tools& found) {
@@ -234,13 +256,29 @@ struct FillCommand {
     command.robot(robot.str());
     command.motion(no_goal());
   }
+  /// Into a Command or a QueueEntry: both have the same members for it.
+  template <typename Wire>
+  static void fill(Wire& w, const model::CommandSubmitted& c) {
+    w.id(c.id.str());
+    w.kind(is_linear(c.motion) ? wire::COMMAND_LINEAR : wire::COMMAND_JOINT);
+    w.motion(to_goal(c.motion));
+    w.priority(c.priority);
+    w.has_deadline(c.deadline.has_value());
+    w.deadline(c.deadline.value_or(0));
+  }
   void operator()(const model::CommandSubmitted& c) const {
-    head(c.id, c.robot, is_linear(c.motion) ? wire::COMMAND_LINEAR : wire::COMMAND_JOINT);
-    command.motion(to_goal(c.motion));
-    command.priority(c.priority);
+    command.robot(c.robot.str());
+    fill(command, c);
   }
   void operator()(const model::CommandCancelled& c) const { head(c.id, c.robot, wire::COMMAND_CANCEL); }
   void operator()(const model::StopRequested& c) const { head(c.id, c.robot, wire::COMMAND_STOP); }
+  void operator()(const model::HoldRequested& c) const { head(c.id, c.robot, wire::COMMAND_HOLD); }
+  void operator()(const model::ResumeRequested& c) const { head(c.id, c.robot, wire::COMMAND_RESUME); }
+  void operator()(const model::QueueReplaced& c) const {
+    head(c.id, c.robot, wire::COMMAND_REPLACE);
+    command.queue().resize(c.commands.size());
+    for (std::size_t i = 0; i < c.commands.size(); ++i) fill(command.queue()[i], c.commands[i]);
+  }
 };
 
 struct FillDispatch {
@@ -269,6 +307,7 @@ struct FillDispatch {
     dispatch.attempt(w.attempt);
   }
   void operator()(const Heartbeat& h) const {
+    dispatch.held(h.held);
     head(h.robot, wire::DISPATCH_HEARTBEAT);
     dispatch.echo_proxy_incarnation(h.proxy_incarnation);
     dispatch.echo_proxy_sent(h.proxy_sent.count());
@@ -286,11 +325,14 @@ Converted<CommandMessage> from_wire(const wire::Command& w, const std::string& o
   const model::CommandId id{v.name("id", w.id().to_string())};
   CommandMessage message;
   message.client = v.name("client", w.client().to_string());
-  switch (v.known("kind", w.kind(), wire::COMMAND_STOP)) {
-    case wire::COMMAND_LINEAR: message.request = model::CommandSubmitted{id, robot, read_motion(v, w.motion(), true), w.priority()}; break;
-    case wire::COMMAND_JOINT: message.request = model::CommandSubmitted{id, robot, read_motion(v, w.motion(), false), w.priority()}; break;
+  switch (v.known("kind", w.kind(), wire::COMMAND_REPLACE)) {
+    case wire::COMMAND_LINEAR: message.request = read_command(v, w, id, robot, true); break;
+    case wire::COMMAND_JOINT: message.request = read_command(v, w, id, robot, false); break;
     case wire::COMMAND_CANCEL: message.request = model::CommandCancelled{id, robot}; break;
     case wire::COMMAND_STOP: message.request = model::StopRequested{id, robot}; break;
+    case wire::COMMAND_HOLD: message.request = model::HoldRequested{id, robot}; break;
+    case wire::COMMAND_RESUME: message.request = model::ResumeRequested{id, robot}; break;
+    case wire::COMMAND_REPLACE: message.request = model::QueueReplaced{id, robot, read_queue(v, w.queue(), robot)}; break;
   }
   return result(v, std::move(message));
 }
@@ -306,7 +348,7 @@ Converted<StatusMessage> from_wire(const wire::CommandStatus& w, const std::stri
   status.escape = w.escape();
   status.serves = model::CommandId{v.name_or_empty("serves", w.serves().to_string())};
   status.state = v.known("state", w.state(), model::CommandState::failed);
-  status.reason = v.known("reason", w.reason(), model::Reason::tool);
+  status.reason = v.known("reason", w.reason(), model::Reason::replaced);
   status.text = v.text("text", w.text().to_string(), kMaxText);
   status.submitted = v.stamp("submitted", w.submitted());
   status.start = if_present<model::Instant>(w.has_start(), [&] { return v.stamp("start", w.start()); });
@@ -314,6 +356,9 @@ Converted<StatusMessage> from_wire(const wire::CommandStatus& w, const std::stri
   status.delay = v.number("delay", w.delay(), kMaxSeconds);
   status.conflicts = read_conflicts(v, w.conflicts());
   status.refusals = read_refusals(v, w.refusals());
+  status.verdict = v.known("verdict", w.verdict(), model::DeadlineVerdict::impossible);
+  status.deadline =
+      if_present<model::Instant>(status.verdict != model::DeadlineVerdict::none, [&] { return v.stamp("deadline", w.deadline()); });
   return result(v, std::move(message));
 }
 
@@ -344,8 +389,12 @@ Converted<DispatchMessage> from_wire(const wire::Dispatch& w, const std::string&
     }
     case wire::DISPATCH_WITHDRAW: message.order = model::Withdrawal{read_id(), robot, w.attempt()}; break;
     case wire::DISPATCH_HEARTBEAT:
-      message.order = Heartbeat{robot, w.echo_proxy_incarnation(), v.stamp("echo_proxy_sent", w.echo_proxy_sent()).time_since_epoch(),
-                                v.stamp("planner_received", w.planner_received()), v.stamp("planner_sent", w.planner_sent())};
+      message.order = Heartbeat{robot,
+                                w.echo_proxy_incarnation(),
+                                v.stamp("echo_proxy_sent", w.echo_proxy_sent()).time_since_epoch(),
+                                v.stamp("planner_received", w.planner_received()),
+                                v.stamp("planner_sent", w.planner_sent()),
+                                w.held()};
       break;
   }
   return result(v, std::move(message));
@@ -389,6 +438,7 @@ Converted<PostureMessage> from_wire(const wire::Posture& w, const std::string& o
   posture.ready = w.ready();
   posture.motion = model::CommandId{v.name_or_empty("motion", w.motion().to_string())};
   posture.holds = read_tools(v, "holds", w.holds());
+  message.held = w.held();
   return result(v, std::move(message));
 }
 
@@ -412,9 +462,9 @@ Converted<model::PlannerState> from_wire(const wire::PlannerState& w, const std:
     state.robots.push_back(
         {model::RobotName{v.name("robots.name", r.name().to_string())}, v.known("robots.mode", r.mode(), model::RobotMode::moving),
          r.queued(), model::CommandId{v.name_or_empty("robots.current", r.current().to_string())},
-         v.known("robots.reason", r.reason(), model::Reason::tool), v.text("robots.text", r.text().to_string(), kMaxText),
+         v.known("robots.reason", r.reason(), model::Reason::replaced), v.text("robots.text", r.text().to_string(), kMaxText),
          read_conflicts(v, r.conflicts()), read_refusals(v, r.refusals()),
-         model::CommandId{v.name_or_empty("robots.serves", r.serves().to_string())}, read_tools(v, "robots.holds", r.holds())});
+         model::CommandId{v.name_or_empty("robots.serves", r.serves().to_string())}, read_tools(v, "robots.holds", r.holds()), r.held()});
   }
   return result(v, std::move(state));
 }
@@ -447,6 +497,8 @@ wire::CommandStatus to_wire(const StatusMessage& message) {
   w.delay(status.delay);
   w.conflicts(to_conflicts(status.conflicts));
   w.refusals(to_refusals(status.refusals));
+  w.verdict(same_value<wire::DeadlineVerdict>(status.verdict));
+  w.deadline(nanoseconds(status.deadline.value_or(model::Instant{})));
   return w;
 }
 
@@ -495,6 +547,7 @@ wire::Posture to_wire(const PostureMessage& message) {
   w.ready(posture.ready);
   w.motion(posture.motion.str());
   w.holds(to_tools(posture.holds));
+  w.held(message.held);
   return w;
 }
 
@@ -523,6 +576,7 @@ wire::PlannerState to_wire(const model::PlannerState& state) {
     robot.conflicts(to_conflicts(r.conflicts));
     robot.refusals(to_refusals(r.refusals));
     robot.holds(to_tools(r.holds));
+    robot.held(r.held);
     w.robots().push_back(std::move(robot));
   }
   return w;

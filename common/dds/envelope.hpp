@@ -11,7 +11,7 @@ namespace interlace::dds {
 
 /// On `command`, client → planner.
 struct CommandMessage {
-  std::variant<model::CommandSubmitted, model::CommandCancelled, model::StopRequested> request;
+  model::ClientRequest request;
   std::string client;  ///< who asks, for the log; a valid name
 };
 
@@ -28,6 +28,7 @@ struct Heartbeat {
   model::Duration proxy_sent{};         ///< PostureMessage::proxy_sent as last received, on that proxy's monotonic clock
   model::Instant planner_received{};    ///< when that posture came
   model::Instant planner_sent{};        ///< when this heartbeat left
+  bool held = false;                    ///< a client holds the robot
 };
 
 /// On `dispatch`, planner → proxy.
@@ -51,6 +52,7 @@ struct PostureMessage {
   std::uint64_t planner_incarnation = 0;  ///< whose time posture.at is in; 0 while no planner is heard: then posture.at means nothing
   model::Duration proxy_sent{};           ///< the proxy's monotonic clock when this left; comes back in a Heartbeat
   model::PostureReported posture;
+  bool held = false;  ///< as the last planner that knew this proxy said: a hold outlives the planner
 };
 
 // On `planner_state`, planner → everyone: model::PlannerState.

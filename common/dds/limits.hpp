@@ -10,6 +10,7 @@ inline constexpr std::size_t kMaxText = 256;                          ///< [byte
 inline constexpr std::size_t kMaxConflicts = 16;                      ///< in one message about one robot
 inline constexpr std::size_t kMaxRefusals = 16;                       ///< of escapes, likewise
 inline constexpr std::size_t kMaxRobots = 128;                        ///< in one cell
+inline constexpr std::size_t kMaxReplacement = 100;                   ///< commands that take a queue's place at a time
 inline constexpr std::size_t kMaxTools = 32;                          ///< in one cell
 inline constexpr double kMaxLength = 1e4;                             ///< |coordinate|, |clearance| [m]
 inline constexpr double kMaxAngle = 1e3;                              ///< |joint| [rad]

@@ -56,6 +56,7 @@ struct PlanningOptions {
   bool escapes = true;                    ///< robots in the way are sent out of it; else their neighbours wait for people
   std::optional<double> lead;             ///< shortest time from a decision to a start [s]; default: the program's own
   std::optional<double> start_tolerance;  ///< latest start after the planned one, before the controller's own latency [s]; ditto
+  double patience = 120;                  ///< a command whose turn came longer ago goes before all others, whatever their priority [s]
   std::optional<Box> zone;                ///< of the strategy `zone`; default: made from what the robots can reach
 };
 

@@ -39,6 +39,20 @@ const char* to_string(Reason r) {
     case Reason::deadlock: return "deadlock";
     case Reason::fixture_collision: return "fixture_collision";
     case Reason::tool: return "tool";
+    case Reason::priority: return "priority";
+    case Reason::held: return "held";
+    case Reason::replaced: return "replaced";
+  }
+  return "?";
+}
+
+const char* to_string(DeadlineVerdict v) {
+  switch (v) {
+    case DeadlineVerdict::none: return "none";
+    case DeadlineVerdict::open: return "open";
+    case DeadlineVerdict::met: return "met";
+    case DeadlineVerdict::late: return "late";
+    case DeadlineVerdict::impossible: return "impossible";
   }
   return "?";
 }

@@ -44,7 +44,8 @@ struct CommandSubmitted {
   CommandId id;
   RobotName robot;
   MotionRequest motion;
-  int priority = 0;
+  int priority = 0;                               ///< higher goes first among commands of different robots that compete
+  std::optional<double> deadline = std::nullopt;  ///< to be completed within this after its submission [s]; it is only reported on
 };
 /// Client → planner: give up a command that has not started.
 struct CommandCancelled {
@@ -56,6 +57,25 @@ struct StopRequested {
   CommandId id;  ///< id of the request itself
   RobotName robot;
 };
+/// Client → planner: the robot finishes what it does and then stands, whatever waits for it or for its place, until it is resumed.
+struct HoldRequested {
+  CommandId id;  ///< id of the request itself
+  RobotName robot;
+};
+/// Client → planner: ends a hold.
+struct ResumeRequested {
+  CommandId id;  ///< id of the request itself
+  RobotName robot;
+};
+/// Client → planner: `commands` instead of all that waits for the robot, and all of them or none.
+struct QueueReplaced {
+  CommandId id;  ///< id of the request itself
+  RobotName robot;
+  std::vector<CommandSubmitted> commands;  ///< for that robot, in their order; their ids are new
+};
+
+/// All that a client can ask for.
+using ClientRequest = std::variant<CommandSubmitted, CommandCancelled, StopRequested, HoldRequested, ResumeRequested, QueueReplaced>;
 
 enum class CommandState : std::uint8_t {
   queued,     ///< admitted, waits for its turn
@@ -93,9 +113,22 @@ enum class Reason : std::uint8_t {
   escape,             ///< out of the way of the command it serves; or of that command: others are sent out of its way first
   deadlock,           ///< nobody in the way will move by itself and no escape was found: a person is asked for help
   fixture_collision,  ///< a fixture of the cell is in the way
-  tool                ///< a tool that the cell does not know, to be taken although it is held, or to be left although it is not
+  tool,               ///< a tool that the cell does not know, to be taken although it is held, or to be left although it is not
+  priority,           ///< another command goes first: it has a higher priority, or has waited too long
+  held,               ///< its robot is held, or one that stands in its way is
+  replaced            ///< other commands took the place of the whole queue
 };
 [[nodiscard]] const char* to_string(Reason r);
+
+/// What can be said of a command's deadline.
+enum class DeadlineVerdict : std::uint8_t {
+  none,       ///< it has no deadline
+  open,       ///< it can still be met
+  met,        ///< completed in time
+  late,       ///< the deadline passed before its completion
+  impossible  ///< no plan could have met it from its submission on; it is carried out all the same
+};
+[[nodiscard]] const char* to_string(DeadlineVerdict v);
 
 /// Which bodies come too near, when, and by how much: the evidence behind a delay or a refusal (DESIGN section 7).
 struct Conflict {
@@ -134,6 +167,8 @@ struct CommandStatus {
   double delay = 0;              ///< start minus the time the command could have started [s]
   std::vector<Conflict> conflicts;
   std::vector<EscapeRefusal> refusals;  ///< with reason `deadlock`: what was tried in vain
+  std::optional<Instant> deadline;
+  DeadlineVerdict verdict = DeadlineVerdict::none;
 };
 
 /// Planner → proxy: start `motion` within [earliest, latest] or not at all.
@@ -199,6 +234,7 @@ struct RobotStatus {
   std::vector<EscapeRefusal> refusals;
   CommandId serves;             ///< when `current` is an escape: the command it serves
   std::vector<ToolName> holds;  ///< all that the robot may hold, as the planner knows it
+  bool held = false;            ///< it starts nothing until it is resumed
 };
 
 /// Planner → everyone: the whole state, so that a late or deaf listener recovers.

@@ -48,6 +48,7 @@ Planner::Planner(std::shared_ptr<const model::Cell> cell, PlannerOptions options
 Decisions Planner::advance(Instant now) {
   Decisions out;
   notice_silence(now, out);
+  notice_deadlines(now, out);
   schedule(now, out);
   return out;
 }
@@ -60,6 +61,7 @@ void Planner::schedule(Instant now, Decisions& out) {
   } else {
     serve_whoever_can(now, out);
   }
+  tell_held(out);
   for (RobotRecord& r : robots_) {
     if (const QueuedCommand* next = r.next(); next && !r.committed && next->status.state == CommandState::waiting)
       publish(next->status, out);
@@ -67,27 +69,36 @@ void Planner::schedule(Instant now, Decisions& out) {
   send_due(now, out);
 }
 
-/// Robots that stand and have a command, longest ready first.
-std::vector<RobotRecord*> Planner::candidates() {
+/// Robots that stand and have a command: first whose command goes before others (goes_before), then who is longest ready.
+std::vector<RobotRecord*> Planner::candidates(Instant now) {
   std::vector<RobotRecord*> result;
   for (RobotRecord& r : robots_) {
     const bool held_up = clearing_ && clearing_->robot != index_of(r) && neighbourhood_.near(clearing_->robot, index_of(r));
-    if (!r.committed && r.next() && !held_up) result.push_back(&r);
+    if (!r.committed && r.next() && !r.held && !held_up) result.push_back(&r);
   }
-  std::stable_sort(result.begin(), result.end(), [](const auto* a, const auto* b) { return a->ready_since < b->ready_since; });
+  std::stable_sort(result.begin(), result.end(), [&](const auto* a, const auto* b) {
+    if (goes_before(*a, *b, now)) return true;
+    return !goes_before(*b, *a, now) && a->ready_since < b->ready_since;
+  });
   return result;
 }
 
 void Planner::serve_whoever_can(Instant now, Decisions& out) {
   check_clearing();
+  bool one_gives_way = false;
   const auto one_starts = [&] {
-    for (RobotRecord* r : candidates()) {
-      if (try_commit(*r, now, out)) return true;
+    one_gives_way = false;
+    for (RobotRecord* r : candidates(now)) {
+      if (gives_way(*r, now)) {
+        one_gives_way = true;
+      } else if (try_commit(*r, now, out)) {
+        return true;
+      }
     }
     return false;
   };
-  // A robot that leaves may open the way for one that could not start.
-  while (one_starts() || make_room(now, out)) {
+  // A robot that leaves may open the way for one that could not start, and where no room was found for one nobody gives way to it.
+  while (one_starts() || make_room(now, out) || (one_gives_way && one_starts())) {
   }
 }
 
@@ -96,8 +107,10 @@ void Planner::serve_whoever_can(Instant now, Decisions& out) {
 void Planner::serve_in_turn(Instant now, Decisions& out) {
   while (!escaping_ || all_stand()) {
     escaping_ = false;
+    if (deadlocked_ && robots_[*deadlocked_].held) deadlocked_.reset();
     if (!deadlocked_) {
-      const auto commanded = std::find_if(robots_.begin(), robots_.end(), [](const RobotRecord& r) { return !r.committed && r.next(); });
+      const auto commanded =
+          std::find_if(robots_.begin(), robots_.end(), [](const RobotRecord& r) { return !r.committed && r.next() && !r.held; });
       if (commanded == robots_.end()) return;
       if (try_commit(*commanded, now, out)) continue;
       deadlocked_ = index_of(*commanded);
@@ -105,7 +118,7 @@ void Planner::serve_in_turn(Instant now, Decisions& out) {
     RobotRecord& r = robots_[*deadlocked_];
     if (r.next() && !r.committed && !try_commit_when_all_stand(r, now, out)) {
       // When all stand and no escape was found, people are told, and what they can do is to give another robot a command.
-      const auto helps = [&](RobotRecord& other) { return &other != &r && other.next() && try_commit(other, now, out); };
+      const auto helps = [&](RobotRecord& other) { return &other != &r && other.next() && !other.held && try_commit(other, now, out); };
       if (all_stand()) (void)std::any_of(robots_.begin(), robots_.end(), helps);
       return;
     }
@@ -163,6 +176,10 @@ bool Planner::try_commit(RobotRecord& r, Instant now, Decisions& out) {
   head.status.state = CommandState::waiting;
   head.status.reason = a.reason;
   head.status.text = sentence(r.robot->name, a, 0);
+  if (const std::string held = held_in_the_way(a.blockers); !held.empty()) {
+    head.status.reason = Reason::held;
+    head.status.text = fmt::format("{} waits for {}: {}", r.robot->name.str(), held, head.status.text);
+  }
   head.status.conflicts = std::move(a.conflicts);
   head.status.refusals.clear();
   return false;
@@ -182,6 +199,10 @@ void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment
     for (model::Conflict& c : a.conflicts) c.until = std::min(c.until, *a.start);
   }
   if (a.reason == Reason::none && delay > 0 && !a.conflicts.empty()) a.reason = Reason::delayed;
+  if (a.reason == Reason::none && delay > 0 && status.reason == Reason::priority) {
+    a.reason = Reason::priority;
+    if (text.empty()) text = status.text;
+  }
   Commitment c;
   c.serial = ++r.last_serial;
   c.start_from = *a.start;
@@ -223,7 +244,12 @@ void Planner::send_due(Instant now, Decisions& out) {
     if (!r.committed) continue;
     Commitment& c = *r.committed;
     if (c.phase == Commitment::Phase::dispatched && !c.accepted && now >= c.sent + options_.answer_timeout && now <= c.start_until) {
-      dispatch(r, now, out);  // unanswered: say it again, the proxy executes it once
+      if (r.held) {  // unanswered: say again that it is taken back
+        c.sent = now;
+        out.withdrawals.push_back({c.command.status.id, r.robot->name, c.command.attempts});
+      } else {
+        dispatch(r, now, out);  // unanswered: say it again, the proxy executes it once
+      }
       continue;
     }
     if (c.phase != Commitment::Phase::held) continue;
@@ -258,6 +284,7 @@ void Planner::dispatch(RobotRecord& r, Instant now, Decisions& out) {
 std::optional<Instant> Planner::next_deadline() const {
   std::optional<Instant> next;
   const auto consider = [&](Instant t) { next = next ? std::min(*next, t) : t; };
+  if (!deadlines_.empty()) consider(std::get<Instant>(*deadlines_.begin()) + Duration{1});
   for (const RobotRecord& r : robots_) {
     if (options_.posture_timeout && r.heard) consider(r.last_heard + *options_.posture_timeout + Duration{1});
     if (!r.committed) continue;
@@ -284,6 +311,7 @@ model::PlannerState Planner::state(Instant now) const {
     model::RobotStatus status;
     status.name = r.robot->name;
     status.holds = cell_->names_of(r.tools);
+    status.held = r.held;
     status.queued = static_cast<std::uint32_t>(r.queue.size() + r.escapes.size());
     const QueuedCommand* next = r.next();
     const CommandStatus* current = r.committed ? &r.committed->command.status : next ? &next->status : nullptr;

@@ -5,7 +5,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
+#include <tuple>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "common/model/cell.hpp"
@@ -27,6 +31,7 @@ struct PlannerOptions {
   Duration confirm{};                       ///< from a start until the planner has surely heard of it
   std::optional<Duration> posture_timeout;  ///< a robot silent for longer is lost; empty: never
   Duration answer_timeout = std::chrono::milliseconds{100};  ///< a dispatch unanswered for longer is sent again
+  Duration patience = std::chrono::seconds{120};             ///< a command whose turn came longer ago goes before every priority
   std::size_t queue_limit = 1000;                            ///< waiting commands per robot
   std::string escape_prefix = "escape-";                     ///< of the ids of escapes; must differ between planners that proxies remember
   std::size_t remembered = 10000;                            ///< finished commands that are still answered by id
@@ -55,6 +60,9 @@ class Planner {
   Decisions on(const model::CommandSubmitted& event, Instant now);
   Decisions on(const model::CommandCancelled& event, Instant now);
   Decisions on(const model::StopRequested& event, Instant now);
+  Decisions on(const model::HoldRequested& event, Instant now);
+  Decisions on(const model::ResumeRequested& event, Instant now);
+  Decisions on(const model::QueueReplaced& event, Instant now);
   Decisions on(const model::PostureReported& event, Instant now);
   Decisions on(const model::ExecutionReported& event, Instant now);
 
@@ -66,6 +74,9 @@ class Planner {
 
   /// The whole state, for the heartbeat. `cell`, `fingerprint` and `incarnation` are the caller's to fill.
   [[nodiscard]] model::PlannerState state(Instant now) const;
+
+  /// A client holds it.
+  [[nodiscard]] bool holds(model::RobotIndex robot) const { return robots_[robot].held; }
 
   /// Between decisions: builds the next map that one of the coming ones will most likely ask for. False when there is none left to build.
   /// Changes how long decisions take and nothing else. One call takes as long as one map.
@@ -97,6 +108,27 @@ class Planner {
   bool cancel(RobotRecord& r, const model::CommandId& id, Decisions& out);
   void publish(const model::CommandStatus& status, Decisions& out);
 
+  // Control: planner_control.cpp
+  void hold(RobotRecord& r, Decisions& out);
+  void scene_is_new();
+  void tell_held(Decisions& out);
+  [[nodiscard]] std::string held_in_the_way(const std::vector<model::RobotIndex>& blockers) const;
+  [[nodiscard]] std::optional<std::pair<model::Reason, std::string>> why_not_replaced(const RobotRecord& r,
+                                                                                      const model::QueueReplaced& event) const;
+  void fill_queue(RobotRecord& r, const model::QueueReplaced& event, AdmittedQueue chain, Instant now, Decisions& out);
+  [[nodiscard]] std::string first_impossible(const RobotRecord& r) const;
+
+  // Deadlines: planner_deadlines.cpp
+  void set_deadline(const RobotRecord& r, QueuedCommand& command, double within, Instant now);
+  [[nodiscard]] Duration least_time(const RobotRecord& r, const QueuedCommand& command, Instant now) const;
+  void notice_deadlines(Instant now, Decisions& out);
+
+  // Who goes first: planner_precedence.cpp
+  [[nodiscard]] bool goes_before(const RobotRecord& a, const RobotRecord& b, Instant now) const;
+  bool gives_way(RobotRecord& r, Instant now);
+  [[nodiscard]] bool can_be_let_through(const RobotRecord& w) const;
+  [[nodiscard]] bool kept_out_by(const RobotRecord& w, const Neighbour& moving, Instant now);
+
   // Robots: planner_robots.cpp
   void stand_at(RobotRecord& r, const model::Joints& q, Instant now, Decisions& out, bool escaped = false);
   void put_following_back(RobotRecord& r);
@@ -112,7 +144,7 @@ class Planner {
   void serve_whoever_can(Instant now, Decisions& out);
   void serve_in_turn(Instant now, Decisions& out);
   bool try_commit_when_all_stand(RobotRecord& r, Instant now, Decisions& out);
-  [[nodiscard]] std::vector<RobotRecord*> candidates();
+  [[nodiscard]] std::vector<RobotRecord*> candidates(Instant now);
   [[nodiscard]] std::vector<Neighbour> neighbours_of(const RobotRecord& r, Instant now) const;
   [[nodiscard]] Candidate candidate_of(const RobotRecord& r, const SampledMotionPtr& motion) const;
   [[nodiscard]] Timing timing_at(Instant now) const { return {now + options_.lead, options_.confirm}; }
@@ -155,8 +187,9 @@ class Planner {
   bool prepared_ = false;          // nothing was left to prepare since the last event
   std::size_t next_prepared_ = 0;  // the robot for which preparing goes on
   std::vector<RobotRecord> robots_;
-  std::unordered_map<model::CommandId, model::CommandStatus> known_;  // newest status of every command still answered by id
-  std::deque<model::CommandId> finished_;                             // final ones, oldest first
+  std::unordered_map<model::CommandId, model::CommandStatus> known_;              // newest status of every command still answered by id
+  std::deque<model::CommandId> finished_;                                         // final ones, oldest first
+  std::set<std::tuple<Instant, model::RobotIndex, model::CommandId>> deadlines_;  // that nobody has passed yet; of finished commands too
   std::uint64_t accepted_ = 0, rejected_ = 0, completed_ = 0;
   /// Says that something changed at `r` that a search for room depends on.
   void changed(RobotRecord& r) { r.changed = ++revision_; }

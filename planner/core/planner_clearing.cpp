@@ -58,7 +58,7 @@ bool Planner::send(const UntangleStep& step, Instant now, Decisions& out) {
 void Planner::check_clearing() {
   if (!clearing_) return;
   const RobotRecord& r = robots_[clearing_->robot];
-  if (!r.next() || served_by(*r.next()) != clearing_->command || r.lost() || !r.ready) clearing_.reset();
+  if (!r.next() || served_by(*r.next()) != clearing_->command || r.lost() || !r.ready || r.held) clearing_.reset();
 }
 
 }  // namespace interlace::core

@@ -16,7 +16,7 @@ namespace {
 
 /// Saying it again would tell nobody anything new.
 bool same_message(const CommandStatus& a, const CommandStatus& b) {
-  return a.state == b.state && a.reason == b.reason && a.start == b.start && a.end == b.end && a.text == b.text &&
+  return a.state == b.state && a.reason == b.reason && a.start == b.start && a.end == b.end && a.text == b.text && a.verdict == b.verdict &&
          a.refusals.size() == b.refusals.size();
 }
 
@@ -94,9 +94,10 @@ Decisions Planner::on(const model::CommandSubmitted& event, Instant now) {
   changed(r);
   if (!r.next() && !r.committed) r.ready_since = now;
   command.status.state = CommandState::queued;
-  publish(command.status, out);
   command.motion = std::move(admitted->motion);
   command.tools = admitted->tools;
+  if (event.deadline) set_deadline(r, command, *event.deadline, now);
+  publish(command.status, out);
   r.queue.push_back(std::move(command));
   schedule(now, out);
   return out;

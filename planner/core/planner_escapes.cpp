@@ -18,7 +18,7 @@ WaitGraph Planner::wait_graph() const {
     WaitNode n;
     if (r.committed) {
       n.state = WaitNode::State::moves;
-    } else if (r.lost() || !r.ready) {
+    } else if (r.lost() || !r.ready || r.held) {
       n.state = WaitNode::State::unknown;
     } else if (r.next()) {
       n.state = WaitNode::State::waits;
@@ -50,11 +50,12 @@ bool Planner::make_room(Instant now, Decisions& out) {
   if (!may_escape()) return false;
   if (clearing_) return go_on_clearing(now, out);
   // Who waits for one that is under way is in no deadlock: mostly that is everybody, and nothing else has to be looked at.
-  std::vector<RobotRecord*> stuck = candidates();
+  std::vector<RobotRecord*> stuck = candidates(now);
   const auto waits_for_a_mover = [&](const RobotRecord* r) {
     return std::any_of(r->blockers.begin(), r->blockers.end(), [&](model::RobotIndex b) { return robots_[b].committed.has_value(); });
   };
-  stuck.erase(std::remove_if(stuck.begin(), stuck.end(), waits_for_a_mover), stuck.end());
+  const auto needs_no_room = [&](const RobotRecord* r) { return r->gives_way || waits_for_a_mover(r); };
+  stuck.erase(std::remove_if(stuck.begin(), stuck.end(), needs_no_room), stuck.end());
   if (stuck.empty()) return false;
   const WaitGraph graph = wait_graph();
   std::vector<RobotRecord*> deadlocked;
@@ -98,6 +99,8 @@ EscapeView Planner::escape_view(const RobotRecord& r, Instant now) const {
     view.immovable = r.foreign ? "it moves although nobody told it to" : "it is not heard from";
   } else if (!r.ready) {
     view.immovable = "its controller is not ready";
+  } else if (r.held) {
+    view.immovable = "it is held";
   }
   view.tolerance = candidate_of(r, nullptr).tolerance;
   view.trail.assign(r.trail.begin(), r.trail.end());

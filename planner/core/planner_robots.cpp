@@ -11,6 +11,7 @@ namespace interlace::core {
 
 using model::CommandState;
 using model::CommandStatus;
+using model::DeadlineVerdict;
 using model::ExecutionState;
 using model::Reason;
 
@@ -241,6 +242,11 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
     case ExecutionState::completed: {
       status.state = CommandState::completed;
       status.end = event.at;
+      if (status.deadline && event.at <= *status.deadline) {
+        status.verdict = DeadlineVerdict::met;  // also when its report came after it had been called late
+      } else if (status.verdict == DeadlineVerdict::open) {
+        status.verdict = DeadlineVerdict::late;
+      }
       if (c.phase != Commitment::Phase::started) r.last_started = c.serial;
       publish(status, out);
       const model::Motion& motion = c.command.motion->motion();

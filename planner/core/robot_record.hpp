@@ -57,6 +57,7 @@ struct RobotRecord {
   bool heard = false;    ///< a posture came and is not older than the time-out
   bool ready = true;     ///< its controller would accept a command
   bool foreign = false;  ///< moves although nobody here told it to
+  bool held = false;     ///< a client holds it: it starts nothing, not even an escape
   Instant last_heard{};
   Instant known_at = model::kEarliest;           ///< newest instant that any report tells of; an older posture says nothing any more
   std::optional<model::PostureReported> stood;   ///< newest posture that saw it standing
@@ -79,6 +80,10 @@ struct RobotRecord {
   std::uint64_t last_serial = 0;
   std::uint64_t last_started = 0;  ///< serial of the newest commitment that began
   Instant ready_since{};           ///< since when the head of the queue could have gone
+  bool gives_way = false;          ///< its next command could go, but one that goes before it could not go then
+
+  /// Of the command whose turn it is, or that a way back leads to.
+  [[nodiscard]] int priority() const { return queue.empty() ? 0 : queue.front().priority; }
 
   /// Neither heard from nor explained by what we told it: it may be anywhere in its reach.
   [[nodiscard]] bool lost() const { return !heard || foreign; }

@@ -12,7 +12,7 @@ struct WaitNode {
     moves,   ///< carries a motion out, or will: things change by themselves when it has arrived
     idle,    ///< stands and has nothing to do
     waits,   ///< has a command that cannot start because of `blockers`
-    unknown  ///< not heard from, or not ready: nobody can say what it will do
+    unknown  ///< not heard from, not ready, or held: nobody can say what it will do
   };
   State state = State::idle;
   std::vector<model::RobotIndex> blockers;  ///< robots that must go away first, all of them

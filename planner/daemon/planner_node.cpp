@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <random>
+#include <type_traits>
 
 #include "common/app/evidence.hpp"
 #include "common/app/logging.hpp"
@@ -43,6 +44,7 @@ core::PlannerOptions core_options(const model::Cell& cell, const PlannerNodeOpti
   o.start_tolerance = model::from_seconds(cell.planning.start_tolerance.value_or(kStartTolerance));
   o.posture_timeout = kPostureTimeout;
   o.escapes = cell.planning.escapes;
+  o.patience = model::from_seconds(cell.planning.patience);
   o.escape_prefix = fmt::format("escape-{:016x}-", incarnation);  // no client and no proxy has heard of such an id before
   return o;
 }
@@ -143,6 +145,8 @@ void PlannerNode::decide(const Event& event) {
   const core::Decisions decisions = planner_.on(event, now());
   if (!decisions.empty() && decision_times_.size() < kDecisionsKept) decision_times_.push_back(elapsed_seconds() - before);
   publish(decisions);
+  // The proxies remember holds: they must know before this planner could be gone.
+  if constexpr (std::is_same_v<Event, model::HoldRequested> || std::is_same_v<Event, model::ResumeRequested>) send_heartbeats();
 }
 
 void PlannerNode::take_all() {
@@ -175,6 +179,7 @@ void PlannerNode::take_posture(Link& link, const dds::PostureMessage& m) {
     log(LogLevel::info, "proxy_heard", {{"robot", link.robot.str()}});
     state_changed_ = true;
   }
+  const bool first = !link.proxy;
   link.proxy = ProxyEcho{m.proxy_incarnation, m.proxy_sent, t};
   model::PostureReported posture = m.posture;
   if (m.planner_incarnation != incarnation_) {
@@ -182,6 +187,10 @@ void PlannerNode::take_posture(Link& link, const dds::PostureMessage& m) {
     posture.ready = false;  // so it could not keep a start window
   }
   decide(posture);
+  // The planner before this one was told to hold it, and nobody has resumed it.
+  if (first && m.held)
+    decide(
+        model::HoldRequested{model::CommandId{fmt::format("still-held-{:016x}-{}", incarnation_, *cell_->find(link.robot))}, link.robot});
 }
 
 PlannerNode::Link& PlannerNode::link_of(const model::RobotName& robot) {
@@ -236,6 +245,7 @@ void PlannerNode::send_heartbeats() {
       beat.planner_received = link->proxy->received;
     }
     beat.planner_sent = now();
+    beat.held = planner_.holds(*cell_->find(link->robot));
     auto message = envelope();
     message.order = beat;
     (void)link->dispatches.write(message);  // the next one comes in a tenth of a second

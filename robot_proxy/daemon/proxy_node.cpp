@@ -106,6 +106,7 @@ bool ProxyNode::obeys(const dds::DispatchMessage& m) {
 void ProxyNode::on_heartbeat(const dds::Heartbeat& beat, std::uint64_t planner) {
   planner_->chose_us = beat.proxy_incarnation == incarnation_;
   if (!planner_->chose_us) return;
+  held_ = beat.held;  // from a planner that has heard of us, and so of what we were told before
   const LocalTime t = now();
   clock_.on_echo({planner, LocalTime{beat.proxy_sent}, beat.planner_received, beat.planner_sent, t}, t);
 }
@@ -169,6 +170,7 @@ void ProxyNode::publish_posture() {
   m.posture.joints = seen_.joints;
   m.posture.X_WT = seen_.X_WT;
   m.posture.holds = seen_.holds;
+  m.held = held_;
   m.posture.moving = seen_.moving;
   m.posture.ready = seen_.ready && !leaving();
   if (const auto* id = executor_->running()) m.posture.motion = *id;

@@ -66,6 +66,7 @@ class ProxyNode {
   std::optional<Executor> executor_;
   ControllerState seen_;
   std::optional<PlannerInCharge> planner_;
+  bool held_ = false;  // what the planner said last; a planner that starts learns it from us
   std::uint64_t stranger_logged_ = 0;
   std::uint64_t refusals_logged_ = 0;
   LocalTime next_posture_{};

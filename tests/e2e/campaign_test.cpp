@@ -11,6 +11,7 @@ namespace {
 
 const std::string kGenerate = INTERLACE_BIN_DIR "/interlace-generate";
 const std::string kCampaign = INTERLACE_BIN_DIR "/interlace-campaign";
+const std::string kFlow = INTERLACE_BIN_DIR "/interlace-flow";
 
 TEST(Generate, WritesAProgramThatTheSimulatorRuns) {
   Scratch scratch;
@@ -73,6 +74,31 @@ TEST(CampaignProgram, SaysWhatIsWrong) {
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_TRUE(missing.says("no/such/cell")) << missing;
   EXPECT_TRUE(run({kCampaign, "--help"}).says("robots touched"));
+}
+
+TEST(FlowProgram, PrintsATableAndTheSameNumbersAsJson) {
+  Scratch scratch;
+  const std::string report = scratch.path("flow.json");
+  const Outcome o = run({kFlow, deployed("pattern-serial-3"), "--strategies", "zone", "event", "--loads", "0.5", "--programs", "2",
+                         "--per-robot", "4", "--resolution", "0.05", "--report", report},
+                        60s);
+  ASSERT_EQ(o.exit_code, 0) << o;
+  EXPECT_TRUE(o.says("| zone |") && o.says("| event |") && o.says("mean flow at 50 %")) << o;
+  const auto rows = nlohmann::json::parse(read_text(report))["rows"];
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows.at(1)["completed"], 24);
+  EXPECT_GT(rows.at(1)["mean_flow_s"], 0);
+}
+
+TEST(FlowProgram, SaysWhatIsWrong) {
+  const std::string cell = deployed("pattern-serial-3");
+  EXPECT_EQ(run({kFlow}).exit_code, 2);
+  EXPECT_EQ(run({kFlow, cell, "--loads", "0"}).exit_code, 2);
+  const Outcome strategy = run({kFlow, cell, "--strategies", "event", "hope"});
+  EXPECT_EQ(strategy.exit_code, 2);
+  EXPECT_TRUE(strategy.says("hope") && strategy.says("acm")) << strategy;
+  EXPECT_EQ(run({kFlow, "no/such/cell"}).exit_code, 2);
+  EXPECT_TRUE(run({kFlow, "--help"}).says("Poisson"));
 }
 
 }  // namespace

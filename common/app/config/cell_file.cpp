@@ -17,7 +17,8 @@ namespace interlace::app {
 
 namespace {
 
-constexpr double kLongestWait = 60;  // [s] of latency, lead and tolerance: beyond it a number is a mistake
+constexpr double kLongestPatience = 1e6;  // [s]
+constexpr double kLongestWait = 60;       // [s] of latency, lead and tolerance: beyond it a number is a mistake
 constexpr double kLargestSpeedError = 0.5;
 constexpr double kFinestResolution = 0.0005;  // [s] not included; finer maps cost much and tell nothing
 constexpr double kCoarsestResolution = 1;     // [s]
@@ -99,11 +100,12 @@ std::optional<model::Box> read_box(const Field& field, const Units& units) {
 
 model::PlanningOptions read_planning(const Field& field, const Units& units) {
   model::PlanningOptions options;
-  const auto mapping = field.mapping({"resolution", "margin", "strategy", "escapes", "lead", "start_tolerance", "zone"});
+  const auto mapping = field.mapping({"resolution", "margin", "strategy", "escapes", "lead", "start_tolerance", "patience", "zone"});
   if (!mapping) return options;
   options.margin = number_or(*mapping, "margin", length(units), options.margin);
   options.lead = optional_number(*mapping, "lead", seconds(kLongestWait));
   options.start_tolerance = optional_number(*mapping, "start_tolerance", seconds(kLongestWait));
+  options.patience = number_or(*mapping, "patience", seconds(kLongestPatience), options.patience);
   if (const auto resolution = mapping->find("resolution")) {
     const auto value = resolution->number(seconds(kCoarsestResolution));
     if (value && *value <= kFinestResolution) resolution->refuse("expected more than 0.0005 s");

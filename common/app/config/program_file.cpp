@@ -17,7 +17,8 @@ using model::Program;
 using model::ProgramStep;
 
 constexpr int kLargestPriority = 1'000'000;
-constexpr double kLatestRelease = 1e6;  // [s]
+constexpr double kLatestRelease = 1e6;   // [s]
+constexpr double kLatestDeadline = 1e7;  // [s]
 
 std::optional<model::Target> read_target(const Mapping& step, const Units& units) {
   const auto move = step.require("move");
@@ -37,7 +38,7 @@ std::optional<model::Target> read_target(const Mapping& step, const Units& units
 /// A step with findings comes back incomplete; the caller sees the findings.
 ProgramStep read_step(const Field& field, const Tools* tools, const Units& units) {
   ProgramStep step;
-  const auto mapping = field.mapping({"move", "to", "velocity", "acceleration", "priority", "at", "attach", "detach", "when"});
+  const auto mapping = field.mapping({"move", "to", "velocity", "acceleration", "priority", "deadline", "at", "attach", "detach", "when"});
   if (!mapping) return step;
   step.motion.target = read_target(*mapping, units).value_or(model::Target{});
   if (const auto velocity = mapping->find("velocity")) step.motion.velocity = velocity->number(speed(units));
@@ -45,7 +46,19 @@ ProgramStep read_step(const Field& field, const Tools* tools, const Units& units
   step.motion.tools = read_tool_change(*mapping, tools);
   if (const auto priority = mapping->find("priority")) step.priority = priority->integer(-kLargestPriority, kLargestPriority).value_or(0);
   if (const auto at = mapping->find("at")) step.at = at->number(seconds(kLatestRelease)).value_or(0);
+  if (const auto deadline = mapping->find("deadline")) step.deadline = deadline->number(seconds(kLatestDeadline));
   return step;
+}
+
+std::vector<ProgramStep> read_replacement(const Field& field, const Tools* tools, const Units& units) {
+  std::vector<ProgramStep> steps;
+  const auto items = field.items("commands");
+  if (!items) return steps;
+  for (const auto& item : *items) {
+    steps.push_back(read_step(item, tools, units));
+    if (steps.back().at > 0) item.complain("a command of a replacement is released with it: `at` is the event's");
+  }
+  return steps;
 }
 
 void check_robot(const std::string& name, const Field& entry, const Names* robots) {
@@ -71,6 +84,45 @@ Program read_robots(const Field& field, const Names* robots, const Tools* tools,
   return program;
 }
 
+using What = model::ProgramEvent::What;
+
+/// What happens is the key that names the robot: `{at: 5, hold: r1}`.
+void read_event(const Field& field, const Names* robots, const Tools* tools, const Units& units, Program& program) {
+  static const std::vector<std::pair<std::string, What>> kWhat{
+      {"hold", What::hold}, {"resume", What::resume}, {"cancel", What::cancel}, {"replace", What::replace}};
+  const auto mapping = field.mapping({"at", "hold", "resume", "cancel", "command", "replace", "by"});
+  if (!mapping) return;
+  model::ProgramEvent event;
+  const auto at = mapping->require("at");
+  if (at) event.at = at->number(seconds(kLatestRelease)).value_or(0);
+  int found = 0;
+  for (const auto& [key, what] : kWhat) {
+    const auto robot = mapping->find(key);
+    if (!robot) continue;
+    ++found;
+    event.what = what;
+    const auto name = robot->name();
+    if (!name) continue;
+    event.robot = model::RobotName{*name};
+    check_robot(*name, *robot, robots);
+  }
+  if (found != 1) field.complain("expected one of hold, resume, cancel and replace, with the name of a robot");
+  const auto command = event.what == What::cancel ? mapping->require("command") : mapping->find("command");
+  if (command && event.what != What::cancel) command->complain("only `cancel` has it");
+  if (command) event.command = static_cast<std::size_t>(command->integer(1, kMaxProgramSize).value_or(1));
+  const auto by = event.what == What::replace ? mapping->require("by") : mapping->find("by");
+  if (by && event.what != What::replace) by->complain("only `replace` has it");
+  if (by) event.commands = read_replacement(*by, tools, units);
+  program.events.push_back(std::move(event));
+}
+
+void read_events(const Field& field, const Names* robots, const Tools* tools, const Units& units, Program& program) {
+  const auto items = field.items("events");
+  if (!items) return;
+  for (const auto& item : *items) read_event(item, robots, tools, units, program);
+  std::stable_sort(program.events.begin(), program.events.end(), [](const auto& a, const auto& b) { return a.at < b.at; });
+}
+
 void unroll(Program& program, int repeat) {
   for (auto& entry : program.robots) {
     auto& steps = entry.second;
@@ -81,7 +133,7 @@ void unroll(Program& program, int repeat) {
 }
 
 Program read_program(const YAML::Node& document, const Names* robots, const Tools* tools, Findings& findings) {
-  const auto file = Field{document, "", findings}.mapping({"interlace", "units", "repeat", "program"});
+  const auto file = Field{document, "", findings}.mapping({"interlace", "units", "repeat", "program", "events"});
   if (!file) return {};
   const Units units = read_preamble(*file);
   const auto repeat_field = file->find("repeat");
@@ -89,6 +141,7 @@ Program read_program(const YAML::Node& document, const Names* robots, const Tool
   const auto field = file->require("program");
   if (!field) return {};
   Program program = read_robots(*field, robots, tools, units);
+  if (const auto events = file->find("events")) read_events(*events, robots, tools, units, program);
   if (!findings.none()) return program;
   if (program.size() == 0) field->refuse("empty program: expected at least one command");
   if (program.size() * static_cast<std::size_t>(repeat) > static_cast<std::size_t>(kMaxProgramSize)) {

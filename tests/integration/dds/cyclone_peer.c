@@ -146,6 +146,8 @@ static int submit(const struct peer* peer, const char* id, char** pose, dds_time
   snprintf(command.id, sizeof command.id, "%s", id);
   snprintf(command.robot, sizeof command.robot, "%s", peer->robot);
   snprintf(command.client, sizeof command.client, "cyclone_peer");
+  command.has_deadline = true;
+  command.deadline = 3600;
   command.motion.position.x = atof(pose[0]);
   command.motion.position.y = atof(pose[1]);
   command.motion.position.z = atof(pose[2]);

@@ -97,6 +97,7 @@ TEST(Cyclone, SubmitsACommandAndHearsItsEnd) {
   EXPECT_EQ(command.id.str(), "cyclone-1");
   EXPECT_EQ(command.robot, kRobot);
   EXPECT_FALSE(command.motion.velocity);
+  EXPECT_EQ(command.deadline, 3600);
   const auto& target = std::get<model::LinearTarget>(command.motion.target);
   EXPECT_TRUE(target.X_WT.isApprox(model::make_pose({0.3, 0.25, 0.33}, model::Quaternion{0.6, 0, 0.8, 0}), 1e-12));
   const std::string text = peer.output();

@@ -64,6 +64,7 @@ void survive(const Message& good, const std::string& owner) {
 TEST(Mutation, Command) {
   survive(linear_command(), kRobot.str());
   survive(joint_command(), kRobot.str());
+  survive(replace_command(), kRobot.str());
 }
 TEST(Mutation, CommandStatus) {
   survive(status(), kRobot.str());

@@ -77,7 +77,10 @@ TEST(Refusal, Command) {
                                        {
                                            {"version: 1", [](auto& c) { c.version(1); }},
                                            {"version 0", [](auto& c) { c.version(0); }},
-                                           {"kind: 4", [](auto& c) { c.kind(static_cast<wire::CommandKind>(4)); }},
+                                           {"kind: 7", [](auto& c) { c.kind(static_cast<wire::CommandKind>(7)); }},
+                                           {"deadline: nan", [](auto& c) { c.deadline(kNaN); }},
+                                           {"deadline: -1", [](auto& c) { c.deadline(-1); }},
+                                           {"deadline: 100000000", [](auto& c) { c.deadline(1e8); }},
                                            {"kind: 4294967295", [](auto& c) { c.kind(static_cast<wire::CommandKind>(0xFFFFFFFF)); }},
                                            {"id: ''", [](auto& c) { c.id(""); }},
                                            {"id: 'a b'", [](auto& c) { c.id("a b"); }},
@@ -105,6 +108,16 @@ TEST(Refusal, Command) {
                                        });
 }
 
+TEST(Refusal, Replacement) {
+  expect_refusals<dds::CommandMessage>(dds::topics::command("cell", kRobot), replace_command(),
+                                       {
+                                           {"queue.id: 'a b'", [](auto& c) { c.queue()[1].id("a b"); }},
+                                           {"queue.kind: 2", [](auto& c) { c.queue()[0].kind(wire::COMMAND_CANCEL); }},
+                                           {"motion.position.x: nan", [](auto& c) { c.queue()[0].motion().position().x(kNaN); }},
+                                           {"deadline: inf", [](auto& c) { c.queue()[0].deadline(kInfinity); }},
+                                       });
+}
+
 TEST(Refusal, JointCommand) {
   expect_refusals<dds::CommandMessage>(dds::topics::command("cell", kRobot), joint_command(),
                                        {
@@ -123,7 +136,9 @@ TEST(Refusal, CommandStatus) {
           {"serves: 'a b'", [](auto& s) { s.serves("a b"); }},
           {"serves: 'xxx", [](auto& s) { s.serves(std::string(65, 'x')); }},
           {"state: 8", [](auto& s) { s.state(static_cast<wire::CommandState>(8)); }},
-          {"reason: 21", [](auto& s) { s.reason(static_cast<wire::ReasonCode>(21)); }},
+          {"reason: 24", [](auto& s) { s.reason(static_cast<wire::ReasonCode>(24)); }},
+          {"verdict: 5", [](auto& s) { s.verdict(static_cast<wire::DeadlineVerdict>(5)); }},
+          {"deadline: 3000000000000000001", [](auto& s) { s.deadline(3'000'000'000'000'000'001); }},
           {"text: 'two?lines' holds control", [](auto& s) { s.text("two\nlines"); }},
           {"text: '?' holds control characters or is not UTF-8", [](auto& s) { s.text("\xC0"); }},
           {"is too long", [](auto& s) { s.text(std::string(257, 't')); }},

@@ -50,6 +50,14 @@ void expect_same(const std::vector<model::EscapeRefusal>& sent, const std::vecto
   }
 }
 
+void expect_same(const model::CommandSubmitted& sent, const model::CommandSubmitted& got) {
+  EXPECT_EQ(sent.id, got.id);
+  EXPECT_EQ(sent.robot, got.robot);
+  EXPECT_EQ(sent.priority, got.priority);
+  EXPECT_EQ(sent.deadline, got.deadline);
+  expect_same(sent.motion, got.motion);
+}
+
 TEST(RoundTrip, Command) {
   Pair pair{dds::topics::command("cell", kRobot)};
   ASSERT_TRUE(pair.match());
@@ -59,10 +67,7 @@ TEST(RoundTrip, Command) {
     EXPECT_EQ(got->client, "tester");
     const auto& a = std::get<model::CommandSubmitted>(sent.request);
     const auto& b = std::get<model::CommandSubmitted>(got->request);
-    EXPECT_EQ(a.id, b.id);
-    EXPECT_EQ(a.robot, b.robot);
-    EXPECT_EQ(a.priority, b.priority);
-    expect_same(a.motion, b.motion);
+    expect_same(a, b);
   }
   const auto cancelled = pair.pass(cancel_command());
   ASSERT_TRUE(cancelled);
@@ -70,8 +75,36 @@ TEST(RoundTrip, Command) {
   const auto stopped = pair.pass(stop_command());
   ASSERT_TRUE(stopped);
   EXPECT_EQ(std::get<model::StopRequested>(stopped->request).id.str(), "s-1");
-  EXPECT_EQ(pair.reader.counters().received, 4u);
+  const auto held = pair.pass(hold_command());
+  ASSERT_TRUE(held);
+  EXPECT_EQ(std::get<model::HoldRequested>(held->request).id.str(), "h-1");
+  const auto resumed = pair.pass(resume_command());
+  ASSERT_TRUE(resumed);
+  EXPECT_EQ(std::get<model::ResumeRequested>(resumed->request).id.str(), "h-2");
+  EXPECT_EQ(pair.reader.counters().received, 6u);
   EXPECT_EQ(pair.reader.counters().refused, 0u);
+}
+
+TEST(RoundTrip, Replacement) {
+  Pair pair{dds::topics::command("cell", kRobot)};
+  ASSERT_TRUE(pair.match());
+  dds::CommandMessage message = replace_command();
+  auto& sent = std::get<model::QueueReplaced>(message.request);
+  const auto got = pair.pass(message);
+  ASSERT_TRUE(got) << pair.writer.last_refusal() << pair.reader.counters().last_refusal;
+  const auto& replaced = std::get<model::QueueReplaced>(got->request);
+  EXPECT_EQ(replaced.id.str(), "q-1");
+  ASSERT_EQ(replaced.commands.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) expect_same(sent.commands[i], replaced.commands[i]);
+
+  // The largest is far above one UDP datagram; one more is refused before it is sent.
+  sent.commands.assign(100, sent.commands[0]);
+  const auto large = pair.pass(message);
+  ASSERT_TRUE(large) << pair.writer.last_refusal();
+  EXPECT_EQ(std::get<model::QueueReplaced>(large->request).commands.size(), 100u);
+  sent.commands.push_back(sent.commands[0]);
+  EXPECT_FALSE(pair.writer.write(message));
+  EXPECT_NE(pair.writer.last_refusal().find("queue: 101 are too many"), std::string::npos) << pair.writer.last_refusal();
 }
 
 TEST(RoundTrip, CommandStatus) {
@@ -94,12 +127,16 @@ TEST(RoundTrip, CommandStatus) {
   EXPECT_EQ(got->status.delay, sent.status.delay);
   expect_same(sent.status.conflicts, got->status.conflicts);
   expect_same(sent.status.refusals, got->status.refusals);
+  EXPECT_EQ(got->status.verdict, sent.status.verdict);
+  EXPECT_EQ(got->status.deadline, sent.status.deadline);
 
   dds::StatusMessage wordy = status();
   wordy.status.start.reset();
   wordy.status.text = std::string(300, 'x') + "\n";
   wordy.status.conflicts.assign(40, conflict());
   wordy.status.serves = model::CommandId{};
+  wordy.status.verdict = model::DeadlineVerdict::none;
+  wordy.status.deadline.reset();
   // An umlaut across the bound: it goes as a whole.
   wordy.status.refusals.assign(17, {model::RobotName{"r2"}, model::EscapeWay::retreat, std::string(255, 'x') + "ä"});
   wordy.status.refusals.front().way = model::EscapeWay::plus_x;
@@ -108,6 +145,7 @@ TEST(RoundTrip, CommandStatus) {
   EXPECT_EQ(cut->status.text.size(), 256u);
   EXPECT_EQ(cut->status.conflicts.size(), 16u);
   EXPECT_FALSE(cut->status.start);
+  EXPECT_FALSE(cut->status.deadline);
   EXPECT_TRUE(cut->status.serves.empty());
   ASSERT_EQ(cut->status.refusals.size(), 16u);
   EXPECT_EQ(cut->status.refusals.front().way, model::EscapeWay::plus_x) << "the first ones are kept";
@@ -147,6 +185,7 @@ TEST(RoundTrip, Dispatch) {
   EXPECT_EQ(echo.proxy_sent.count(), 123'456'789'012);
   EXPECT_EQ(echo.planner_received, at(3.1));
   EXPECT_EQ(echo.planner_sent, at(3.2));
+  EXPECT_TRUE(echo.held);
 }
 
 TEST(RoundTrip, Execution) {
@@ -187,6 +226,7 @@ TEST(RoundTrip, Posture) {
   EXPECT_FALSE(got->posture.ready);
   EXPECT_EQ(got->posture.motion.str(), "c-1");
   EXPECT_EQ(got->posture.holds, sent.posture.holds);
+  EXPECT_TRUE(got->held);
 }
 
 TEST(RoundTrip, PlannerState) {
@@ -216,6 +256,7 @@ TEST(RoundTrip, PlannerState) {
     expect_same(sent.robots[i].conflicts, got->robots[i].conflicts);
     expect_same(sent.robots[i].refusals, got->robots[i].refusals);
     EXPECT_EQ(got->robots[i].holds, sent.robots[i].holds);
+    EXPECT_TRUE(got->robots[i].held);
   }
 }
 

@@ -34,6 +34,7 @@ inline dds::CommandMessage linear_command(const std::string& id = "c-1") {
   c.motion = {model::LinearTarget{pose()}, 0.05, 0.2,
               model::ToolChange{model::ToolName{"long"}, model::ToolName{}, model::ToolTime::completion}};
   c.priority = -3;
+  c.deadline = 12.5;
   return {c, "tester"};
 }
 
@@ -51,6 +52,22 @@ inline dds::CommandMessage cancel_command() {
 
 inline dds::CommandMessage stop_command() {
   return {model::StopRequested{model::CommandId{"s-1"}, kRobot}, "tester"};
+}
+
+inline dds::CommandMessage hold_command() {
+  return {model::HoldRequested{model::CommandId{"h-1"}, kRobot}, "tester"};
+}
+
+inline dds::CommandMessage resume_command() {
+  return {model::ResumeRequested{model::CommandId{"h-2"}, kRobot}, "tester"};
+}
+
+inline dds::CommandMessage replace_command() {
+  return {model::QueueReplaced{model::CommandId{"q-1"},
+                               kRobot,
+                               {std::get<model::CommandSubmitted>(linear_command("c-3").request),
+                                std::get<model::CommandSubmitted>(joint_command().request)}},
+          "tester"};
 }
 
 inline model::Conflict conflict() {
@@ -77,6 +94,8 @@ inline dds::StatusMessage status() {
   s.delay = 1.25;
   s.conflicts = {conflict(), conflict()};
   s.refusals = refusals();
+  s.verdict = model::DeadlineVerdict::late;
+  s.deadline = at(3.5);
   return {42, s};
 }
 
@@ -100,7 +119,7 @@ inline dds::DispatchMessage withdrawal() {
 }
 
 inline dds::DispatchMessage heartbeat() {
-  return {42, 0xFEEDFACECAFEBEEF, dds::Heartbeat{kRobot, 99, model::Duration{123'456'789'012}, at(3.1), at(3.2)}};
+  return {42, 0xFEEDFACECAFEBEEF, dds::Heartbeat{kRobot, 99, model::Duration{123'456'789'012}, at(3.1), at(3.2), true}};
 }
 
 inline dds::ExecutionMessage execution() {
@@ -120,7 +139,7 @@ inline dds::PostureMessage posture(const model::RobotName& robot = kRobot) {
   p.ready = false;
   p.motion = model::CommandId{"c-1"};
   p.holds = tools();
-  return {0xFEEDFACECAFEBEEF, 99, 42, model::Duration{123'456'789'012}, p};
+  return {0xFEEDFACECAFEBEEF, 99, 42, model::Duration{123'456'789'012}, p, true};
 }
 
 inline model::RobotStatus robot_status(const std::string& name) {
@@ -133,7 +152,8 @@ inline model::RobotStatus robot_status(const std::string& name) {
           {conflict()},
           refusals(),
           model::CommandId{"c-0"},
-          tools()};
+          tools(),
+          true};
 }
 
 inline model::PlannerState planner_state(const std::string& cell) {

@@ -48,6 +48,21 @@ INSTANTIATE_TEST_SUITE_P(
                "expected a number > 0 (mm/s^2)"},
         Broken{"PriorityWord", "priority: 7", "priority: high", 13, "program.r2[0].priority", "\"high\"", "expected a whole number"},
         Broken{"AtNegative", "at: 2.5", "at: -2.5", 14, "program.r2[0].at", "\"-2.5\"", "expected a number >= 0 (s)"},
+        Broken{"DeadlineNegative", "deadline: 30", "deadline: -1", 15, "program.r2[0].deadline", "\"-1\"", "expected a number >= 0 (s)"},
+        Broken{"EventWithoutTime", "{at: 4, hold: r1}", "{hold: r1}", 17, "events[0].at", "", "required key is missing"},
+        Broken{"EventOfNothing", "{at: 4, hold: r1}", "{at: 4}", 17, "events[0]", "", "expected one of hold, resume, cancel and replace"},
+        Broken{"EventOfTwo", "{at: 4, hold: r1}", "{at: 4, hold: r1, resume: r1}", 17, "events[0]", "",
+               "expected one of hold, resume, cancel and replace"},
+        Broken{"EventOfAnUnknownRobot", "{at: 4, hold: r1}", "{at: 4, hold: r3}", 17, "events[0].hold", "", "unknown robot \"r3\""},
+        Broken{"EventNobodyKnows", "{at: 4, hold: r1}", "{at: 4, hold: r1, pause: r1}", 17, "events[0].pause", "", "unknown key"},
+        Broken{"CancelOfNothing", "cancel: r2, command: 2", "cancel: r2", 19, "events[2].command", "", "required key is missing"},
+        Broken{"CancelOfNumberZero", "command: 2", "command: 0", 19, "events[2].command", "\"0\"", "expected a whole number from 1"},
+        Broken{"HoldOfACommand", "{at: 4, hold: r1}", "{at: 4, hold: r1, command: 1}", 17, "events[0].command", "", "only `cancel` has it"},
+        Broken{"HoldByCommands", "{at: 4, hold: r1}", "{at: 4, hold: r1, by: []}", 17, "events[0].by", "", "only `replace` has it"},
+        Broken{"ReplaceByNothingSaid", "    by:\n      - {move: joint, to: {joints: [0, 40, 94, 0, -44, 0]}, priority: -1}\n", "", 20,
+               "events[3].by", "", "required key is missing"},
+        Broken{"ReplacementWithATime", "priority: -1}", "at: 3}", 23, "events[3].by[0]", "",
+               "a command of a replacement is released with it"},
         Broken{"UnknownStepKey", "velocity: 50", "speed: 50", 11, "program.r2[0].speed", "", "unknown key"},
         Broken{"StepNoMapping", "{move: joint, to: {joints: [0, 40, 94, 0, -44, 180]}}", "home", 7, "program.r1[1]", "\"home\"",
                "expected a mapping with the keys move"}),
@@ -78,6 +93,25 @@ TEST(Program, EveryKeyArrivesInSiUnitsAndRepeats) {
   EXPECT_DOUBLE_EQ(step.motion.acceleration.value_or(0), 0.06);
   EXPECT_EQ(step.priority, 7);
   EXPECT_DOUBLE_EQ(step.at, 2.5);
+  EXPECT_EQ(step.deadline, 30);
+  EXPECT_FALSE(r1[0].deadline);
+}
+
+TEST(Program, EventsComeInTheOrderOfTheirTimeAndOnce) {
+  using What = model::ProgramEvent::What;
+  const auto program = parse_program(kProgram, "program.yaml", nullptr);
+  ASSERT_TRUE(program) << to_string(program.error());
+  const auto& events = program->events;
+  ASSERT_EQ(events.size(), 4U) << "`repeat` is for commands";
+  const std::vector<std::pair<double, What>> wanted{{1, What::cancel}, {4, What::hold}, {5, What::replace}, {6.5, What::resume}};
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    EXPECT_DOUBLE_EQ(events[i].at, wanted[i].first);
+    EXPECT_EQ(events[i].what, wanted[i].second);
+    EXPECT_EQ(events[i].robot.str(), i % 2 == 0 ? "r2" : "r1");
+  }
+  EXPECT_EQ(events[0].command, 2U);
+  ASSERT_EQ(events[2].commands.size(), 1U);
+  EXPECT_EQ(events[2].commands[0].priority, -1);
 }
 
 TEST(Program, WithoutCommandsIsRefused) {

@@ -90,6 +90,15 @@ program:
       acceleration: 60
       priority: 7
       at: 2.5
+      deadline: 30
+events:
+  - {at: 4, hold: r1}
+  - {at: 6.5, resume: r1}
+  - {at: 1, cancel: r2, command: 2}
+  - at: 5
+    replace: r2
+    by:
+      - {move: joint, to: {joints: [0, 40, 94, 0, -44, 0]}, priority: -1}
 )";
 
 std::string replaced(const std::string& text, const std::string& from, const std::string& to) {

@@ -58,12 +58,22 @@ class Desk {
     p.holds = hands[robot];
     keep(planner.on(p, now));
   }
-  void submit(const std::string& id, const std::string& robot, const model::MotionRequest& motion) {
-    model::CommandSubmitted c;
-    c.id = model::CommandId{id};
-    c.robot = model::RobotName{robot};
-    c.motion = motion;
-    keep(planner.on(c, now));
+  static model::CommandSubmitted command(const std::string& id, const std::string& robot, const model::MotionRequest& motion,
+                                         int priority = 0, std::optional<double> deadline = std::nullopt) {
+    return {model::CommandId{id}, model::RobotName{robot}, motion, priority, deadline};
+  }
+  void submit(const std::string& id, const std::string& robot, const model::MotionRequest& motion, int priority = 0,
+              std::optional<double> deadline = std::nullopt) {
+    keep(planner.on(command(id, robot, motion, priority, deadline), now));
+  }
+  void hold(const std::string& id, const std::string& robot) {
+    keep(planner.on(model::HoldRequested{model::CommandId{id}, model::RobotName{robot}}, now));
+  }
+  void resume(const std::string& id, const std::string& robot) {
+    keep(planner.on(model::ResumeRequested{model::CommandId{id}, model::RobotName{robot}}, now));
+  }
+  void replace(const std::string& id, const std::string& robot, std::vector<model::CommandSubmitted> commands) {
+    keep(planner.on(model::QueueReplaced{model::CommandId{id}, model::RobotName{robot}, std::move(commands)}, now));
   }
   void cancel(const std::string& id, const std::string& robot) {
     keep(planner.on(model::CommandCancelled{model::CommandId{id}, model::RobotName{robot}}, now));

@@ -195,10 +195,18 @@ TEST(ProgramText, WritesEveryKeyAndLosesNothing) {
     step.motion.acceleration = seed.uniform(0.01, 1);
     step.priority = i - 100;
     step.at = seed.uniform(0, 100);
+    if (i % 3 == 0) step.deadline = seed.uniform(0, 100);
     steps.push_back(step);
   }
   // Upright, where roll and yaw turn about one axis.
   steps.push_back({test::line_to(model::make_pose({0.1, -0.2, 0}, model::rotation_from_rpy({0.3, model::kPi / 2, 0.1}))), 0, 0});
+  using What = model::ProgramEvent::What;
+  program.events = {{What::hold, 1, model::RobotName{"r1"}, 0, {}},
+                    {What::cancel, 1.5, model::RobotName{"r1"}, 3, {}},
+                    {What::replace, 2, model::RobotName{"r1"}, 0, {steps.front()}},
+                    {What::replace, 2.5, model::RobotName{"r1"}, 0, {}},
+                    {What::resume, 3, model::RobotName{"r1"}, 0, {}}};
+  program.events[2].commands[0].at = 0;
   const auto read = app::parse_program(app::program_text(program), "written", nullptr);
   ASSERT_TRUE(read) << to_string(read.error());
   const auto& back = read->robots.at(0).second;
@@ -215,8 +223,18 @@ TEST(ProgramText, WritesEveryKeyAndLosesNothing) {
     }
     EXPECT_EQ(back[i].priority, steps[i].priority);
     EXPECT_NEAR(back[i].at, steps[i].at, tolerance);
+    ASSERT_EQ(back[i].deadline.has_value(), steps[i].deadline.has_value());
+    EXPECT_NEAR(back[i].deadline.value_or(0), steps[i].deadline.value_or(0), tolerance);
     EXPECT_NEAR(back[i].motion.velocity.value_or(0), steps[i].motion.velocity.value_or(0), tolerance);
     EXPECT_NEAR(back[i].motion.acceleration.value_or(0), steps[i].motion.acceleration.value_or(0), tolerance);
+  }
+  ASSERT_EQ(read->events.size(), program.events.size());
+  for (std::size_t i = 0; i < program.events.size(); ++i) {
+    EXPECT_EQ(read->events[i].what, program.events[i].what);
+    EXPECT_EQ(read->events[i].at, program.events[i].at);
+    EXPECT_EQ(read->events[i].robot, program.events[i].robot);
+    EXPECT_EQ(read->events[i].command, program.events[i].command);
+    EXPECT_EQ(read->events[i].commands.size(), program.events[i].commands.size());
   }
 }
 
