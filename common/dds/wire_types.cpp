@@ -57,11 +57,25 @@ void skip_numbers(Cdr& cdr, int count) {
   for (int i = 0; i < count; ++i) skip<double>(cdr);
 }
 
+void skip_goal(Cdr& cdr) {
+  skip_numbers(cdr, 3 + 4 + 6);
+  skip_all<bool, double, bool, double, std::string, std::string, std::uint32_t>(cdr);
+}
+
 // The generated reader makes room for as many elements as the bytes claim, before it looks for them: four forged bytes would take all
 // memory. So the claims are checked first, in the layout of the IDL. Messages without sequences have nothing to check.
 template <typename Wire>
 bool lengths_are_bounded(Cdr& /*cdr*/) {
   return true;
+}
+
+template <>
+bool lengths_are_bounded<::interlace::Command>(Cdr& cdr) {
+  skip_all<std::uint32_t, std::uint32_t, std::string, std::string, std::string>(cdr);
+  skip_goal(cdr);
+  skip_all<std::int32_t, bool, double>(cdr);
+  std::uint32_t queue = 0;
+  return length_within(cdr, kMaxReplacement, queue);
 }
 
 template <>
@@ -79,6 +93,7 @@ bool lengths_are_bounded<::interlace::PlannerState>(Cdr& cdr) {
   for (std::uint32_t r = 0; r < robots; ++r) {
     skip_all<std::string, std::uint32_t, std::uint32_t, std::string, std::string, std::uint32_t, std::string>(cdr);
     if (!evidence_is_bounded(cdr) || !tools_are_bounded(cdr)) return false;
+    skip<bool>(cdr);
   }
   return true;
 }
@@ -86,8 +101,7 @@ bool lengths_are_bounded<::interlace::PlannerState>(Cdr& cdr) {
 template <>
 bool lengths_are_bounded<::interlace::Dispatch>(Cdr& cdr) {
   skip_all<std::uint32_t, std::uint64_t, std::uint64_t, std::uint32_t, std::string, std::string, std::uint32_t, std::uint32_t>(cdr);
-  skip_numbers(cdr, 3 + 4 + 6);  // from here on the goal
-  skip_all<bool, double, bool, double, std::string, std::string, std::uint32_t>(cdr);
+  skip_goal(cdr);
   skip_numbers(cdr, 6);
   return tools_are_bounded(cdr);
 }

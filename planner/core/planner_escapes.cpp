@@ -163,8 +163,8 @@ void Planner::commit_escape(PlannedMotion e, const model::CommandId& serves, Ins
 /// Nothing helps: says so to people, once, with all that was tried.
 void Planner::warn(RobotRecord& r) {
   CommandStatus& status = r.next()->status;
-  // Who waits for a robot that is not heard from waits for it to come back: no command of a person could move it.
-  if (r.lost() || !r.ready || status.reason == Reason::robot_unknown) return;
+  // Who waits for a robot that is not heard from waits for it to come back, for a held one until it is resumed: no command could move it.
+  if (r.lost() || !r.ready || status.reason == Reason::robot_unknown || status.reason == Reason::held) return;
   const WaitGraph graph = wait_graph();
   std::string who;
   const auto circle = graph.circle(index_of(r));

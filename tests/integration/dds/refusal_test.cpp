@@ -111,6 +111,7 @@ TEST(Refusal, Command) {
 TEST(Refusal, Replacement) {
   expect_refusals<dds::CommandMessage>(dds::topics::command("cell", kRobot), replace_command(),
                                        {
+                                           {"malformed", [](auto& c) { c.queue().resize(101); }},
                                            {"queue.id: 'a b'", [](auto& c) { c.queue()[1].id("a b"); }},
                                            {"queue.kind: 2", [](auto& c) { c.queue()[0].kind(wire::COMMAND_CANCEL); }},
                                            {"motion.position.x: nan", [](auto& c) { c.queue()[0].motion().position().x(kNaN); }},

@@ -30,6 +30,8 @@ struct Network {
 /// Planner, proxies and a client in virtual time, with a network between them that loses, repeats and reorders until it is mended.
 class LossyWorld {
  public:
+  using Event = std::function<void()>;
+
   LossyWorld(std::shared_ptr<const model::Cell> cell, const core::PlannerOptions& options, const Network& network, Seed& seed)
       : cell_(std::move(cell)), planner_(cell_, options), network_(network), seed_(seed) {
     for (const auto& robot : cell_->robots) proxies_.emplace_back(robot);
@@ -43,6 +45,15 @@ class LossyWorld {
   }
   void cancel(const model::CommandId& id, const model::RobotName& robot, Instant at) {
     at_time(at, [this, id, robot] { send([this, id, robot] { take(planner_.on(model::CommandCancelled{id, robot}, now_)); }); });
+  }
+  /// A client asks again and again until the planner has heard it, then goes on with `then`.
+  void ask(const model::ClientRequest& request, Instant at, Event then = nullptr) {
+    at_time(at, [this, request, then = std::move(then)] { ask_until_answered(request, then); });
+  }
+  /// When the planner first answered under `id`; kForever: it never did.
+  [[nodiscard]] Instant answered_at(const std::string& id) const {
+    const auto found = answered_at_.find(id);
+    return found == answered_at_.end() ? model::kForever : found->second;
   }
   void mend_network_at(Instant at) {
     at_time(at, [this] { network_ = Network{0, 0, 1ms}; });
@@ -78,7 +89,6 @@ class LossyWorld {
   [[nodiscard]] std::size_t lost() const { return lost_; }
 
  private:
-  using Event = std::function<void()>;
   static constexpr Duration kPosturePeriod = 20ms;
   static constexpr Duration kRetry = 50ms;
 
@@ -101,6 +111,16 @@ class LossyWorld {
     if (next == commands.size()) return;
     send([this, command = commands[next]] { take(planner_.on(command, now_)); });
     at_time(now_ + kRetry, [this, commands, next] { say_until_answered(commands, next); });
+  }
+
+  void ask_until_answered(const model::ClientRequest& request, const Event& then) {
+    const auto id = std::visit([](const auto& r) { return r.id.str(); }, request);
+    if (answered_.count(id) > 0) {
+      if (then) then();
+      return;
+    }
+    send([this, request] { std::visit([this](const auto& r) { take(planner_.on(r, now_)); }, request); });
+    at_time(now_ + kRetry, [this, request, then] { ask_until_answered(request, then); });
   }
 
   void say_where(std::size_t i) {
@@ -140,6 +160,7 @@ class LossyWorld {
     for (const auto& s : decisions.statuses) {
       if (s.reason == model::Reason::unknown_id) continue;  // a cancellation that overtook its command
       answered_.insert(s.id.str());
+      answered_at_.emplace(s.id.str(), now_);
       if (is_final(s.state)) finals_[s.id.str()].insert(s.state);
     }
     for (const auto& d : decisions.dispatches) {
@@ -160,6 +181,7 @@ class LossyWorld {
   std::multimap<Instant, Event> events_;
   std::vector<model::CommandSubmitted> wanted_;
   std::set<std::string> answered_;
+  std::map<std::string, Instant> answered_at_;
   std::map<std::string, std::set<model::CommandState>> finals_;
   Instant now_{};
   std::size_t sent_ = 0, lost_ = 0;

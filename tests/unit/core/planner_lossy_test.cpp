@@ -85,7 +85,20 @@ struct Outcome {
   std::size_t motions = 0, sent = 0, lost = 0;
 };
 
-Outcome run_once(Seed& seed, const Network& network, bool with_cancels) {
+/// Nothing of a robot begins between its hold, as far as what was sent before may, and its resumption.
+void expect_held(const LossyWorld& world, const IdealProxy& proxy, const std::string& hold, const std::string& resume) {
+  constexpr core::Duration kSentBefore = 400ms;            // lead, and the longest window
+  if (world.answered_at(hold) == model::kForever) return;  // all was done before
+  for (const auto& done : proxy.executed()) {
+    EXPECT_FALSE(done.start > world.answered_at(hold) + kSentBefore && done.start < world.answered_at(resume))
+        << done.id << " began at " << model::to_seconds(done.start) << " s, held from " << model::to_seconds(world.answered_at(hold))
+        << " s to " << model::to_seconds(world.answered_at(resume)) << " s";
+  }
+}
+
+enum class Clients { submit, cancel, hold };
+
+Outcome run_once(Seed& seed, const Network& network, Clients clients) {
   const auto cell = quick_cell(seed);
   core::PlannerOptions options;
   options.lead = 30ms;
@@ -102,10 +115,21 @@ Outcome run_once(Seed& seed, const Network& network, bool with_cancels) {
       c.robot = cell->robots[robot].name;
       c.id = model::CommandId{c.robot.str() + "-" + std::to_string(i)};
       c.motion = i % 2 == 0 ? outing(seed) : aside(robot);
-      if (with_cancels && i % 2 == 0 && seed.chance(0.3)) world.cancel(c.id, c.robot, Instant{model::from_seconds(seed.uniform(0, 5))});
+      if (clients == Clients::cancel && i % 2 == 0 && seed.chance(0.3))
+        world.cancel(c.id, c.robot, Instant{model::from_seconds(seed.uniform(0, 5))});
       commands.push_back(std::move(c));
     }
     world.submit(commands);
+  }
+  if (clients == Clients::hold) {
+    for (const auto& robot : cell->robots) {
+      const auto resume = [&world, &seed, robot = robot.name] {
+        world.ask(model::ResumeRequested{model::CommandId{"resume-" + robot.str()}, robot},
+                  world.now() + model::from_seconds(seed.uniform(0, 3)));
+      };
+      world.ask(model::HoldRequested{model::CommandId{"hold-" + robot.name.str()}, robot.name},
+                Instant{model::from_seconds(seed.uniform(0, 5))}, resume);
+    }
   }
   world.mend_network_at(kMended);
   world.run(kLimit);
@@ -124,6 +148,8 @@ Outcome run_once(Seed& seed, const Network& network, bool with_cancels) {
   Outcome outcome;
   for (const auto& proxy : world.proxies()) {
     expect_honest(proxy);
+    const std::string name = proxy.robot().name.str();
+    if (clients == Clients::hold) expect_held(world, proxy, "hold-" + name, "resume-" + name);
     outcome.motions += proxy.executed().size();
   }
   outcome.least = least_clearance(world.proxies(), world.now());
@@ -133,13 +159,13 @@ Outcome run_once(Seed& seed, const Network& network, bool with_cancels) {
   return outcome;
 }
 
-void run_many(std::uint64_t own_seed, const Network& network, bool with_cancels) {
+void run_many(std::uint64_t own_seed, const Network& network, Clients clients) {
   Seed seed{own_seed};
   Outcome all;
   const std::size_t runs = scaled(kRuns);
   for (std::size_t run = 0; run < runs && !::testing::Test::HasFailure(); ++run) {
     SCOPED_TRACE(::testing::Message() << "run " << run << " of seed " << seed.value());
-    const Outcome one = run_once(seed, network, with_cancels);
+    const Outcome one = run_once(seed, network, clients);
     all.least = std::min(all.least, one.least);
     all.motions += one.motions;
     all.sent += one.sent;
@@ -150,15 +176,19 @@ void run_many(std::uint64_t own_seed, const Network& network, bool with_cancels)
 }
 
 TEST(PlannerOnALossyNetwork, FourOfFiveMessagesLost) {
-  run_many(81, {0.8, 0.3, 100ms}, false);
+  run_many(81, {0.8, 0.3, 100ms}, Clients::submit);
 }
 
 TEST(PlannerOnALossyNetwork, HalfOfTheMessagesLostAndCommandsCancelled) {
-  run_many(82, {0.5, 0.3, 60ms}, true);
+  run_many(82, {0.5, 0.3, 60ms}, Clients::cancel);
 }
 
 TEST(PlannerOnALossyNetwork, NothingLostButEverythingReordered) {
-  run_many(83, {0.0, 0.5, 200ms}, true);
+  run_many(83, {0.0, 0.5, 200ms}, Clients::cancel);
+}
+
+TEST(PlannerOnALossyNetwork, HalfOfTheMessagesLostAndRobotsHeldAndResumed) {
+  run_many(84, {0.5, 0.3, 60ms}, Clients::hold);
 }
 
 }  // namespace
