@@ -145,6 +145,31 @@ class TripleSearch {
 
 }  // namespace
 
+namespace {
+
+/// Why a robot may not leave one of its stops: by the other's progress.
+constexpr unsigned kOtherMoves = 1, kOtherStands = 2;
+using Leaving = std::map<std::size_t, std::vector<unsigned>>;  // by lattice point of the stop
+
+Leaving leaving(const std::vector<Crossing::Leaving>& forbidden, const Lattice& own, const Lattice& other) {
+  Leaving result;
+  for (const Crossing::Leaving& l : forbidden) {
+    auto& row = result[own.points[l.motion]];
+    row.resize(other.points.back() + 1);
+    if (l.progress.from == l.progress.until) {
+      row[static_cast<std::size_t>(std::lround(other.place(l.progress.from)))] |= kOtherStands;
+      continue;
+    }
+    const auto first = static_cast<std::size_t>(std::ceil(other.place(l.progress.from) + kTouch));
+    const auto last = static_cast<std::size_t>(std::max(0.0, other.place(l.progress.until) - kTouch));
+    for (std::size_t v = first; v <= last && v < other.points[l.other + 1]; ++v) row[v] |= kOtherMoves;
+    if (l.progress.from <= other.times[l.other]) row[other.points[l.other]] |= kOtherMoves;  // both leave, the other a moment before
+  }
+  return result;
+}
+
+}  // namespace
+
 std::vector<std::size_t> stop_points(const Track& track, double step) {
   std::vector<std::size_t> points;
   for (const double t : track.stops) points.push_back(static_cast<std::size_t>(std::lround(t / step)));
@@ -158,9 +183,6 @@ PairSpace::PairSpace(const Track& track_a, const Track& track_b, const Crossing&
   may_.assign(rows_ * columns_, kBoth);
   const auto allow = [&](std::size_t u, std::size_t v, std::uint8_t what) {
     may_[u * columns_ + v] = static_cast<std::uint8_t>(may_[u * columns_ + v] | what);
-  };
-  const auto forbid = [&](std::size_t u, std::size_t v, std::uint8_t what) {
-    may_[u * columns_ + v] = static_cast<std::uint8_t>(may_[u * columns_ + v] & ~what);
   };
   for (const std::size_t u : a.points) {
     for (std::size_t v = 0; v < columns_; ++v) allow(u, v, kOnlyB);
@@ -196,6 +218,7 @@ PairSpace::PairSpace(const Track& track_a, const Track& track_b, const Crossing&
     for (std::size_t u = first; u < last; ++u) forbid(u, v, kOnlyA);
     if (s.other.from == s.other.until) stand_still(static_cast<std::size_t>(std::lround(a.place(s.other.from))), v);
   }
+  forbid_leaving(track_a, track_b, crossing, step);
   to_go_.assign(rows_ * columns_, kNever);
   for (std::size_t u = rows_; u-- > 0;) {
     for (std::size_t v = columns_; v-- > 0;) {
@@ -209,6 +232,36 @@ PairSpace::PairSpace(const Track& track_a, const Track& track_b, const Crossing&
       if ((may & kOnlyA) != 0 && u + 1 < rows_) least = std::min(least, to_go(u + 1, v));
       if ((may & kOnlyB) != 0 && v + 1 < columns_) least = std::min(least, to_go(u, v + 1));
       if (least != kNever) to_go_[u * columns_ + v] = static_cast<std::uint16_t>(least + 1);
+    }
+  }
+}
+
+/// When both leave at the same time, either may have been first.
+void PairSpace::forbid_leaving(const Track& track_a, const Track& track_b, const Crossing& crossing, double step) {
+  const Lattice a{track_a, step}, b{track_b, step};
+  const Leaving of_a = leaving(crossing.a_leaves, a, b), of_b = leaving(crossing.b_leaves, b, a);
+  for (const auto& [u, row] : of_a) {
+    for (std::size_t v = 0; v < row.size(); ++v) {
+      if ((row[v] & kOtherStands) != 0) forbid(u, v, kOnlyA);
+      if ((row[v] & kOtherMoves) != 0 && !b.at_stop[v]) forbid(u, v, kBoth);
+    }
+  }
+  for (const auto& [v, row] : of_b) {
+    for (std::size_t u = 0; u < row.size(); ++u) {
+      if ((row[u] & kOtherStands) != 0) forbid(u, v, kOnlyB);
+      if ((row[u] & kOtherMoves) != 0 && !a.at_stop[u]) forbid(u, v, kBoth);
+    }
+  }
+  const auto why = [](const Leaving& l, std::size_t own, std::size_t other) {
+    const auto row = l.find(own);
+    return row == l.end() ? 0U : row->second[other];
+  };
+  for (const std::size_t u : a.points) {
+    for (const std::size_t v : b.points) {
+      const unsigned why_a = why(of_a, u, v), why_b = why(of_b, v, u);
+      const bool a_first = (why_a & kOtherStands) == 0 && (why_b & kOtherMoves) == 0;
+      const bool b_first = (why_b & kOtherStands) == 0 && (why_a & kOtherMoves) == 0;
+      if (!a_first && !b_first) forbid(u, v, kBoth);
     }
   }
 }

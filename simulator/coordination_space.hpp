@@ -30,8 +30,15 @@ struct Crossing {
     std::size_t stop = 0;
     Span other;
   };
+  /// A start that must not be: of motion `motion` while the other's progress, in its motion `other`, is in `progress`. A span of no length:
+  /// while the other stands there.
+  struct Leaving {
+    std::size_t motion = 0, other = 0;
+    Span progress;
+  };
   std::vector<Moving> moving;
   std::vector<Standing> a_stands, b_stands;
+  std::vector<Leaving> a_leaves, b_leaves;
 };
 
 /// Coordination space of two robots on a lattice of progress: what both may do from each point, and how soon they can be done from there.
@@ -52,6 +59,11 @@ class PairSpace {
 
  private:
   static constexpr std::uint8_t kBoth = 1, kOnlyA = 2, kOnlyB = 4;  // a step from a point; the other stands at a stop
+
+  void forbid(std::size_t u, std::size_t v, unsigned what) {
+    may_[u * columns_ + v] = static_cast<std::uint8_t>(may_[u * columns_ + v] & ~what);
+  }
+  void forbid_leaving(const Track& a, const Track& b, const Crossing& crossing, double step);
 
   std::size_t rows_, columns_;
   std::vector<std::uint8_t> may_;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/model/bodies.hpp"
 #include "planner/core/admission.hpp"
 #include "planner/core/neighbourhood.hpp"
 #include "planner/core/timing_map.hpp"
@@ -28,20 +29,24 @@ struct Course {
   Track track;
 };
 
-model::Result<std::vector<Course>, std::string> courses_of(const model::Cell& cell, const model::Program& program) {
+model::Result<std::vector<Course>, std::string> courses_of(const model::Cell& cell, model::Bodies& bodies, const model::Program& program) {
   std::vector<Course> courses(cell.robots.size());
   for (RobotIndex i = 0; i < cell.robots.size(); ++i) {
     const model::Robot& robot = cell.robots[i];
-    courses[i].start = std::make_shared<SampledMotion>(model::Motion::rest(robot, robot.start), cell.planning.resolution);
+    courses[i].start = std::make_shared<SampledMotion>(model::Motion::rest(bodies.of(i, cell.set_of(robot.holds)), robot.start), cell.planning.resolution);
   }
   for (const auto& [name, steps] : program.robots) {
     const RobotIndex i = cell.find(name).value();
     Course& course = courses[i];
     model::Joints from = cell.robots[i].start;
+    model::ToolSet held = cell.set_of(cell.robots[i].holds);
     for (std::size_t k = 0; k < steps.size(); ++k) {
-      auto motion = core::admit(cell, i, from, steps[k].motion);
+      const auto tools = model::tool_steps(cell, name, held, steps[k].motion.tools);
+      if (!tools) return model::unexpected(fmt::format("{}, command {}: {}", name.str(), k + 1, tools.error()));
+      auto motion = core::admit(cell, i, model::MotionBodies::of(bodies, i, *tools), from, steps[k].motion);
       if (!motion) return model::unexpected(fmt::format("{}, command {}: {}", name.str(), k + 1, motion.error().text));
       from = (*motion)->motion().to();
+      held = tools->after;
       course.track.stops.push_back(course.track.stops.back() + (*motion)->motion().duration());
       course.motions.push_back(std::move(*motion));
     }
@@ -49,9 +54,30 @@ model::Result<std::vector<Course>, std::string> courses_of(const model::Cell& ce
   return courses;
 }
 
+/// Where a motion may not start because of one under way or standing, as one cell of their map has it.
+void add_leaving(const core::TimingMap& map, const core::BlockedCell& c, const Course& course_b, std::optional<std::size_t> a,
+                 const Course& course_a, std::size_t b, Crossing& crossing) {
+  const auto& stops_a = course_a.track.stops;
+  const auto& stops_b = course_b.track.stops;
+  const bool before_b = c.t0 == -kNever, after_b = c.t1 == kNever;
+  if (a && before_b) crossing.a_leaves.push_back({*a, b, {stops_b[b], stops_b[b]}});
+  if (a && after_b && b + 1 < stops_b.size()) crossing.a_leaves.push_back({*a, b, {stops_b[b + 1], stops_b[b + 1]}});
+  if (before_b) return;
+  if (a) {
+    const double from = std::max(0.0, c.t0 - c.tau1), until = std::min(map.moving_duration, c.t1 - c.tau0);
+    if (until > from) crossing.a_leaves.push_back({*a, b, {stops_b[b] + from, stops_b[b] + until}});
+  }
+  if (b >= course_b.motions.size()) return;
+  const std::size_t end_of_a = a ? *a + 1 : 0;
+  if (c.tau1 == kNever) crossing.b_leaves.push_back({b, a.value_or(0), {stops_a[end_of_a], stops_a[end_of_a]}});
+  if (!a) return;
+  const double from = std::max(0.0, c.tau0 - c.t1), until = std::min(map.commanded_duration, c.tau1 - c.t0);
+  if (until > from) crossing.b_leaves.push_back({b, *a, {stops_a[*a] + from, stops_a[*a] + until}});
+}
+
 /// Adds what the map of two motions says, `a` and `b` their places in their courses; `a` is empty for standing at the start.
 void add(const core::TimingMap& map, const Course& course_b, std::optional<std::size_t> a, const Course& course_a, std::size_t b,
-         Crossing& crossing) {
+         bool confirmed, Crossing& crossing) {
   const std::size_t end_of_a = a ? *a + 1 : 0;
   const bool b_stands_for_good = map.moving_duration <= 0;
   for (const core::BlockedCell& c : map.blocked) {
@@ -59,6 +85,7 @@ void add(const core::TimingMap& map, const Course& course_b, std::optional<std::
     const bool before_b = c.t0 == -kNever, after_b = c.t1 == kNever;
     const auto progress_a = [&](double tau) { return course_a.track.stops[*a] + tau; };
     const auto progress_b = [&](double t) { return course_b.track.stops[b] + t; };
+    if (confirmed) add_leaving(map, c, course_b, a, course_a, b, crossing);
     if (!before_b && !after_b) {
       if (a_stands) {
         crossing.a_stands.push_back({end_of_a, {progress_b(c.t0), progress_b(c.t1)}});
@@ -79,11 +106,12 @@ void add(const core::TimingMap& map, const Course& course_b, std::optional<std::
   }
 }
 
-Crossing crossing_of(const Course& a, const Course& b, double margin) {
+Crossing crossing_of(const Course& a, const Course& b, double margin, bool confirmed) {
   Crossing crossing;
   const auto against_all = [&](std::optional<std::size_t> i, SampledMotion& own) {
-    if (b.motions.empty()) add(core::build_timing_map(own, *b.start, margin), b, i, a, 0, crossing);
-    for (std::size_t j = 0; j < b.motions.size(); ++j) add(core::build_timing_map(own, *b.motions[j], margin), b, i, a, j, crossing);
+    if (b.motions.empty()) add(core::build_timing_map(own, *b.start, margin), b, i, a, 0, confirmed, crossing);
+    for (std::size_t j = 0; j < b.motions.size(); ++j)
+      add(core::build_timing_map(own, *b.motions[j], margin), b, i, a, j, confirmed, crossing);
   };
   against_all(std::nullopt, *a.start);
   for (std::size_t i = 0; i < a.motions.size(); ++i) against_all(i, *a.motions[i]);
@@ -96,7 +124,8 @@ class Search {
       : cell_(cell), options_(options), neighbourhood_(cell), courses_(std::move(courses)) {
     for (RobotIndex i = 0; i < cell.robots.size(); ++i) {
       for (RobotIndex j = i + 1; j < cell.robots.size(); ++j) {
-        crossings_[{i, j}] = neighbourhood_.meet(i, j) ? crossing_of(courses_[i], courses_[j], cell.planning.margin) : Crossing{};
+        crossings_[{i, j}] =
+            neighbourhood_.meet(i, j) ? crossing_of(courses_[i], courses_[j], cell.planning.margin, options.confirmed) : Crossing{};
       }
     }
   }
@@ -182,7 +211,8 @@ void keep_releases(const model::Cell& cell, const model::Program& program, const
 }  // namespace
 
 model::Result<Optimum, std::string> least_makespan(const model::Cell& cell, const model::Program& program, const OptimumOptions& options) {
-  auto courses = courses_of(cell, program);
+  model::Bodies bodies{cell};
+  auto courses = courses_of(cell, bodies, program);
   if (!courses) return model::unexpected(courses.error());
   Optimum o = Search{cell, *courses, options}.run();
   keep_releases(cell, program, *courses, o);
@@ -190,11 +220,10 @@ model::Result<Optimum, std::string> least_makespan(const model::Cell& cell, cons
 }
 
 std::string summary(const Optimum& o) {
-  if (!o.makespan) return "optimum: none, waiting alone never gets everything done: somebody has to go out of the way\n";
+  if (!o.makespan) return "none, waiting alone never gets everything done: somebody has to go out of the way";
   std::string who;
   for (const auto& name : o.robots) who += (who.empty() ? "" : ", ") + name.str();
-  return fmt::format("optimum: {} {:.2f} s with waiting alone, to {} s, for {}\n", o.exact ? "exactly" : "at least", *o.makespan, o.step,
-                     who);
+  return fmt::format("{} {:.2f} s with waiting alone, to {} s, for {}", o.exact ? "exactly" : "at least", *o.makespan, o.step, who);
 }
 
 }  // namespace interlace::sim

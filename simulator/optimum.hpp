@@ -12,8 +12,9 @@
 namespace interlace::sim {
 
 struct OptimumOptions {
-  double pair_step = 0.01;               ///< of the lattice for two robots [s]
-  double triple_step = 0.02;             ///< of the lattice for three [s]
+  bool confirmed = false;     ///< starts only where the planner sends them: clear of everybody also if nobody else starts any more
+  double pair_step = 0.01;    ///< of the lattice for two robots [s]
+  double triple_step = 0.02;  ///< of the lattice for three [s]
   std::size_t most_states = 20'000'000;  ///< of the search for three, before it is content with a bound
 };
 
@@ -31,7 +32,7 @@ struct Optimum {
 [[nodiscard]] model::Result<Optimum, std::string> least_makespan(const model::Cell& cell, const model::Program& program,
                                                                  const OptimumOptions& options);
 
-/// A line for people.
+/// For people.
 [[nodiscard]] std::string summary(const Optimum& optimum);
 
 }  // namespace interlace::sim

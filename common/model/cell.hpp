@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,10 +54,11 @@ struct PlanningOptions {
   double resolution = 0.01;  ///< smallest cell of a collision map [s]
   double margin = 0;         ///< clearance kept beyond contact [m]
   std::string strategy = "event";
-  bool escapes = true;                    ///< robots in the way are sent out of it; else their neighbours wait for people
-  std::optional<double> lead;             ///< shortest time from a decision to a start [s]; default: the program's own
-  std::optional<double> start_tolerance;  ///< latest start after the planned one, before the controller's own latency [s]; ditto
-  std::optional<Box> zone;                ///< of the strategy `zone`; default: made from what the robots can reach
+  bool escapes = true;                     ///< robots in the way are sent out of it; else their neighbours wait for people
+  std::optional<double> lead;              ///< shortest time from a decision to a start [s]; default: the program's own
+  std::optional<double> start_tolerance;   ///< latest start after the planned one, before the controller's own latency [s]; ditto
+  std::size_t lookahead_budget = 700'000;  ///< of one decision of the strategy `lookahead`, in looks at a pair of motions
+  std::optional<Box> zone;                 ///< of the strategy `zone`; default: made from what the robots can reach
 };
 
 /// Checked description of one cell: at least one robot, unique names, start postures reachable, inside limits and clear of each other

@@ -34,6 +34,7 @@ Planner::Planner(std::shared_ptr<const model::Cell> cell, PlannerOptions options
       neighbourhood_(*cell_),
       maps_(cell_->planning.margin, options_.stopwatch, map_limits(neighbourhood_)) {
   if (!strategy_) throw std::invalid_argument(fmt::format("unknown strategy \"{}\"", options_.strategy));
+  if (strategy_->service().ahead) ahead_.outlook = std::make_shared<Outlook>(*cell_, neighbourhood_);
   robots_.resize(cell_->robots.size());
   for (model::RobotIndex i = 0; i < robots_.size(); ++i) {
     const model::Robot& robot = cell_->robots[i];
@@ -57,6 +58,8 @@ void Planner::schedule(Instant now, Decisions& out) {
   send_due(now, out);
   if (strategy_->service().in_turn) {
     serve_in_turn(now, out);
+  } else if (ahead_.outlook) {
+    serve_ahead(now, out);
   } else {
     serve_whoever_can(now, out);
   }
@@ -258,6 +261,8 @@ void Planner::dispatch(RobotRecord& r, Instant now, Decisions& out) {
 std::optional<Instant> Planner::next_deadline() const {
   std::optional<Instant> next;
   const auto consider = [&](Instant t) { next = next ? std::min(*next, t) : t; };
+  if (ahead_.arrived) consider(Instant{});
+  if (ahead_.wake) consider(*ahead_.wake);
   for (const RobotRecord& r : robots_) {
     if (options_.posture_timeout && r.heard) consider(r.last_heard + *options_.posture_timeout + Duration{1});
     if (!r.committed) continue;

@@ -12,6 +12,7 @@
 #include "common/model/messages.hpp"
 #include "planner/core/escape.hpp"
 #include "planner/core/neighbourhood.hpp"
+#include "planner/core/outlook.hpp"
 #include "planner/core/robot_record.hpp"
 #include "planner/core/untangle.hpp"
 #include "planner/core/wait_graph.hpp"
@@ -63,6 +64,10 @@ class Planner {
 
   /// When advance() has something to do next, if nothing else happens.
   [[nodiscard]] std::optional<Instant> next_deadline() const;
+
+  /// Between decisions: looks further ahead, as far as one decision may. False when there is nothing more to find. Changes what is decided
+  /// next, and when.
+  bool think();
 
   /// The whole state, for the heartbeat. `cell`, `fingerprint` and `incarnation` are the caller's to fill.
   [[nodiscard]] model::PlannerState state(Instant now) const;
@@ -146,6 +151,16 @@ class Planner {
   bool send(const UntangleStep& step, Instant now, Decisions& out);
   void check_clearing();
 
+  // Looking ahead: planner_ahead.cpp
+  void serve_ahead(Instant now, Decisions& out);
+  void look_ahead(Instant now);
+  void search_ahead();
+  void look_from(Instant now);
+  [[nodiscard]] OutlookRobot outlook_robot(const RobotRecord& r, Instant now) const;
+  bool start_as_planned(const PlannedStart& planned, Instant now, Decisions& out);
+  void let_others_go_first();
+  [[nodiscard]] std::optional<Instant> rehearsed_end(Instant now);
+
   std::shared_ptr<const model::Cell> cell_;
   std::shared_ptr<model::Bodies> bodies_;  // copies share it: motions refer to what is in it
   PlannerOptions options_;
@@ -170,6 +185,17 @@ class Planner {
     int plans = 0;                   // made so far
   };
   std::optional<Clearing> clearing_;
+  /// What has been found by looking ahead. Copies share what has been computed, not what was decided.
+  struct Ahead {
+    std::shared_ptr<Outlook> outlook;   // null: the strategy does not look ahead
+    std::optional<OutlookPlan> plan;    // that is followed; empty: whoever can start does
+    std::optional<Instant> event_ends;  // when all is done if whoever can start does, as rehearsed
+    std::uint64_t seen = 0;             // revision that the plan was made for
+    std::uint64_t look = 0;             // of the outlook, for it
+    std::optional<Instant> wake;        // when the next planned start is due
+    bool arrived = false;               // commands that nothing has been decided for yet
+  };
+  Ahead ahead_;
   std::optional<model::RobotIndex> deadlocked_;  // served in turn: for whom all others are held up
   bool escaping_ = false;                        // served in turn: escapes and what they serve are under way
 };

@@ -35,6 +35,9 @@ void Planner::publish(const CommandStatus& status, Decisions& out) {
     entry->second = status;
   }
   out.statuses.push_back(status);
+  const bool as_expected = status.state == CommandState::waiting || status.state == CommandState::scheduled ||
+                           status.state == CommandState::started || status.state == CommandState::completed;
+  if (!as_expected && !status.escape) ahead_.event_ends.reset();
   if (!model::is_final(status.state)) return;
   finished_.push_back(status.id);
   if (finished_.size() > options_.remembered) {
@@ -98,7 +101,11 @@ Decisions Planner::on(const model::CommandSubmitted& event, Instant now) {
   command.motion = std::move(admitted->motion);
   command.tools = admitted->tools;
   r.queue.push_back(std::move(command));
-  schedule(now, out);
+  if (ahead_.outlook) {
+    ahead_.arrived = true;  // others may come at the same time: advance() decides for all of them
+  } else {
+    schedule(now, out);
+  }
   return out;
 }
 

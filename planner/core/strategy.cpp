@@ -85,6 +85,17 @@ class Event : public Strategy {
   }
 };
 
+/// Starts like `event`, in the order of a plan for all that waits.
+class Lookahead final : public Event {
+ public:
+  [[nodiscard]] std::string_view name() const override { return "lookahead"; }
+  [[nodiscard]] Service service() const override {
+    Service s = Event::service();
+    s.ahead = true;
+    return s;
+  }
+};
+
 /// The dissertation as written: one commanded robot at a time in the order of the cell, escapes in six directions, and only when all stand.
 class Acm final : public Event {
  public:
@@ -150,7 +161,7 @@ std::vector<ForbiddenStart> forbidden_by_map(const Candidate& candidate, const N
 }
 
 const std::vector<std::string_view>& strategy_names() {
-  static const std::vector<std::string_view> names{"direct", "zone", "eef-map", "acm", "event"};
+  static const std::vector<std::string_view> names{"direct", "zone", "eef-map", "acm", "event", "lookahead"};
   return names;
 }
 
@@ -163,6 +174,7 @@ std::unique_ptr<Strategy> make_strategy(std::string_view name, const model::Cell
   if (name == "direct") return std::make_unique<Direct>();
   if (name == "acm") return std::make_unique<Acm>();
   if (name == "event") return std::make_unique<Event>();
+  if (name == "lookahead") return std::make_unique<Lookahead>();
   if (name == "zone") return std::make_unique<Zone>(cell);
   if (name == "eef-map") return std::make_unique<EefMap>(cell);
   return nullptr;

@@ -70,6 +70,7 @@ struct Service {
   bool in_turn = false;  ///< robots are served in turn 1 … n, one commanded robot at a time; else whoever can start does
   bool escapes = false;  ///< deadlocks are resolved by escapes
   bool maps = false;     ///< it asks for the maps of motions as they are, so that they may be built before
+  bool ahead = false;    ///< commands that wait are planned together (planner/core/outlook.hpp)
   EscapeRules rules;     ///< which
 };
 

@@ -19,8 +19,9 @@ namespace {
 
 constexpr double kLongestWait = 60;  // [s] of latency, lead and tolerance: beyond it a number is a mistake
 constexpr double kLargestSpeedError = 0.5;
-constexpr double kFinestResolution = 0.0005;  // [s] not included; finer maps cost much and tell nothing
-constexpr double kCoarsestResolution = 1;     // [s]
+constexpr double kFinestResolution = 0.0005;   // [s] not included; finer maps cost much and tell nothing
+constexpr int kLargestBudget = 1'000'000'000;  // of work: half a minute
+constexpr double kCoarsestResolution = 1;      // [s]
 
 /// Models by name; without a value where the model is there but wrong, so that its robots are not blamed for it.
 using Models = std::map<std::string, std::optional<model::RobotModel>>;
@@ -99,7 +100,8 @@ std::optional<model::Box> read_box(const Field& field, const Units& units) {
 
 model::PlanningOptions read_planning(const Field& field, const Units& units) {
   model::PlanningOptions options;
-  const auto mapping = field.mapping({"resolution", "margin", "strategy", "escapes", "lead", "start_tolerance", "zone"});
+  const auto mapping =
+      field.mapping({"resolution", "margin", "strategy", "escapes", "lead", "start_tolerance", "zone", "lookahead_budget"});
   if (!mapping) return options;
   options.margin = number_or(*mapping, "margin", length(units), options.margin);
   options.lead = optional_number(*mapping, "lead", seconds(kLongestWait));
@@ -114,6 +116,9 @@ model::PlanningOptions read_planning(const Field& field, const Units& units) {
     if (index) options.strategy = strategy_names()[*index];
   }
   if (const auto escapes = mapping->find("escapes")) options.escapes = escapes->one_of({"true", "false"}).value_or(0) == 0;
+  if (const auto budget = mapping->find("lookahead_budget")) {
+    if (const auto value = budget->integer(0, kLargestBudget)) options.lookahead_budget = static_cast<std::size_t>(*value);
+  }
   if (const auto zone = mapping->find("zone")) options.zone = read_box(*zone, units);
   return options;
 }
@@ -206,7 +211,7 @@ model::Cell read_cell(const YAML::Node& document, const std::string& file_name, 
 }  // namespace
 
 const std::vector<std::string>& strategy_names() {
-  static const std::vector<std::string> names{"direct", "zone", "eef-map", "acm", "event"};
+  static const std::vector<std::string> names{"direct", "zone", "eef-map", "acm", "event", "lookahead"};
   return names;
 }
 

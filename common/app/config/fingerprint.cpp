@@ -146,6 +146,7 @@ std::uint64_t fingerprint(const model::Cell& cell) {
   out.count(cell.planning.escapes ? 1 : 0);
   out.maybe(cell.planning.lead);
   out.maybe(cell.planning.start_tolerance);
+  out.count(cell.planning.lookahead_budget);
   out.count(cell.planning.zone ? 1 : 0);
   if (cell.planning.zone) {
     out.numbers(cell.planning.zone->min);

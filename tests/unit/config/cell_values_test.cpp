@@ -93,6 +93,14 @@ robots:
   EXPECT_FALSE(cell.planning.lead);
 }
 
+TEST(CellValues, EveryStrategyAndItsBudget) {
+  for (const std::string name : {"direct", "zone", "eef-map", "acm", "event", "lookahead"}) {
+    const auto cell = accepted(replaced(kCell, "strategy: direct", "strategy: " + name + "\n  lookahead_budget: 1000"));
+    EXPECT_EQ(cell.planning.strategy, name);
+    EXPECT_EQ(cell.planning.lookahead_budget, 1000U);
+  }
+}
+
 TEST(CellValues, StartPoseIsReachedElbowUp) {
   const auto cell = accepted(kCell);
   const auto& r2 = cell.robots.at(1);
