@@ -168,6 +168,25 @@ Leaving leaving(const std::vector<Crossing::Leaving>& forbidden, const Lattice& 
   return result;
 }
 
+unsigned why(const Leaving& leaving, std::size_t own, std::size_t other) {
+  const auto row = leaving.find(own);
+  return row == leaving.end() ? 0U : row->second[other];
+}
+
+/// By the stop that a robot leaves and the one where the other stands in its way: steps after which it has passed.
+std::map<std::pair<std::size_t, std::size_t>, std::size_t> passed_by(const std::vector<Crossing::Leaving>& stands, const Lattice& own,
+                                                                     const Lattice& other, double step) {
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> passed;
+  for (const Crossing::Leaving& l : stands) {
+    if (l.progress.from != l.progress.until) continue;
+    const std::size_t u = own.points[l.motion], whole = own.points[l.motion + 1] - u;
+    const std::size_t until = l.until < static_cast<double>(whole) * step ? static_cast<std::size_t>(l.until / step) + 1 : whole;
+    auto& most = passed[{u, static_cast<std::size_t>(std::lround(other.place(l.progress.from)))}];
+    most = std::max(most, std::min(until, whole));
+  }
+  return passed;
+}
+
 }  // namespace
 
 std::vector<std::size_t> stop_points(const Track& track, double step) {
@@ -176,7 +195,8 @@ std::vector<std::size_t> stop_points(const Track& track, double step) {
   return points;
 }
 
-PairSpace::PairSpace(const Track& track_a, const Track& track_b, const Crossing& crossing, double step) : rows_(0), columns_(0) {
+PairSpace::PairSpace(const Track& track_a, const Track& track_b, const Crossing& crossing, double step, double promise)
+    : rows_(0), columns_(0) {
   const Lattice a{track_a, step}, b{track_b, step};
   rows_ = a.points.back() + 1;
   columns_ = b.points.back() + 1;
@@ -218,7 +238,7 @@ PairSpace::PairSpace(const Track& track_a, const Track& track_b, const Crossing&
     for (std::size_t u = first; u < last; ++u) forbid(u, v, kOnlyA);
     if (s.other.from == s.other.until) stand_still(static_cast<std::size_t>(std::lround(a.place(s.other.from))), v);
   }
-  forbid_leaving(track_a, track_b, crossing, step);
+  forbid_leaving(track_a, track_b, crossing, step, promise);
   to_go_.assign(rows_ * columns_, kNever);
   for (std::size_t u = rows_; u-- > 0;) {
     for (std::size_t v = columns_; v-- > 0;) {
@@ -236,26 +256,40 @@ PairSpace::PairSpace(const Track& track_a, const Track& track_b, const Crossing&
   }
 }
 
-/// When both leave at the same time, either may have been first.
-void PairSpace::forbid_leaving(const Track& track_a, const Track& track_b, const Crossing& crossing, double step) {
+/// When both leave at the same time, either may have been first. Who sets out towards a place that the other one stands at, or comes to and
+/// leaves again, has that one leave it within the promise, and that departure must not rely on him in turn.
+void PairSpace::forbid_leaving(const Track& track_a, const Track& track_b, const Crossing& crossing, double step, double promise) {
   const Lattice a{track_a, step}, b{track_b, step};
   const Leaving of_a = leaving(crossing.a_leaves, a, b), of_b = leaving(crossing.b_leaves, b, a);
-  for (const auto& [u, row] : of_a) {
-    for (std::size_t v = 0; v < row.size(); ++v) {
-      if ((row[v] & kOtherStands) != 0) forbid(u, v, kOnlyA);
-      if ((row[v] & kOtherMoves) != 0 && !b.at_stop[v]) forbid(u, v, kBoth);
+  const auto promised = static_cast<std::size_t>(std::lround(promise / step));
+  const auto forbid_all = [&](const Leaving& own_leaves, const Leaving& others_leave, const Lattice& own, const Lattice& other,
+                              const std::vector<Crossing::Leaving>& stands, const std::vector<Crossing::Leaving>& before, bool own_is_a) {
+    const std::uint8_t only_own = own_is_a ? kOnlyA : kOnlyB;
+    const auto forbid_at = [&](std::size_t at_own, std::size_t at_other, unsigned what) {
+      own_is_a ? forbid(at_own, at_other, what) : forbid(at_other, at_own, what);
+    };
+    const auto passed = passed_by(stands, own, other, step);
+    for (const auto& [u, row] : own_leaves) {
+      for (std::size_t v = 0; v < row.size(); ++v) {
+        if ((row[v] & kOtherMoves) != 0 && !other.at_stop[v] && promised == 0) forbid_at(u, v, kBoth);
+        if ((row[v] & kOtherStands) == 0) continue;
+        const std::size_t end = u + passed.at({u, v});
+        forbid_at(u, v, promised == 0 ? only_own : 0U);
+        for (std::size_t k = std::max<std::size_t>(promised, 1); u + k < end; ++k) forbid_at(u + k, v, only_own);
+        for (std::size_t k = promised + 1; u + k < end; ++k) forbid_at(u + k, v, kBoth);
+        const bool in_turn = (why(others_leave, v, u) & kOtherStands) != 0;
+        for (std::size_t k = 1; in_turn && k <= promised && u + k < end; ++k) forbid_at(u + k, v, kBoth);
+      }
     }
-  }
-  for (const auto& [v, row] : of_b) {
-    for (std::size_t u = 0; u < row.size(); ++u) {
-      if ((row[u] & kOtherStands) != 0) forbid(u, v, kOnlyB);
-      if ((row[u] & kOtherMoves) != 0 && !a.at_stop[u]) forbid(u, v, kBoth);
+    for (const Crossing::Leaving& l : before) {
+      const std::size_t u = own.points[l.motion], v = other.points[l.other], end = own.points[l.motion + 1];
+      if ((why(own_leaves, u, v) & kOtherStands) == 0) continue;
+      const auto last = static_cast<std::size_t>(std::max(0.0, l.progress.until / step - kTouch));
+      for (std::size_t k = 1; k <= last && k <= promised && u + k < end; ++k) forbid_at(u + k, v, kBoth);
     }
-  }
-  const auto why = [](const Leaving& l, std::size_t own, std::size_t other) {
-    const auto row = l.find(own);
-    return row == l.end() ? 0U : row->second[other];
   };
+  forbid_all(of_a, of_b, a, b, crossing.a_leaves, crossing.a_before, true);
+  forbid_all(of_b, of_a, b, a, crossing.b_leaves, crossing.b_before, false);
   for (const std::size_t u : a.points) {
     for (const std::size_t v : b.points) {
       const unsigned why_a = why(of_a, u, v), why_b = why(of_b, v, u);

@@ -35,10 +35,14 @@ struct Crossing {
   struct Leaving {
     std::size_t motion = 0, other = 0;
     Span progress;
+    double until = 0;  ///< of one that stands: so long after the start the place is passed
   };
   std::vector<Moving> moving;
   std::vector<Standing> a_stands, b_stands;
   std::vector<Leaving> a_leaves, b_leaves;
+  /// Starts of motion `motion` so long before the other's motion `other` that it would meet the other where that ends: `progress` is the
+  /// time between the two starts.
+  std::vector<Leaving> a_before, b_before;
 };
 
 /// Coordination space of two robots on a lattice of progress: what both may do from each point, and how soon they can be done from there.
@@ -48,7 +52,8 @@ class PairSpace {
   static constexpr std::uint16_t kNever = UINT16_MAX;
 
   /// `step` [s] of the lattice; stops lie on it to half a step, however many there are.
-  PairSpace(const Track& a, const Track& b, const Crossing& crossing, double step);
+  /// `promise` [s]: a start may rely on one of the other robot that is decided already and follows within so long.
+  PairSpace(const Track& a, const Track& b, const Crossing& crossing, double step, double promise = 0);
 
   /// Steps that are needed from (u, v) to the end of both; kNever where there is no way.
   [[nodiscard]] std::uint16_t to_go(std::size_t u, std::size_t v) const { return to_go_[u * columns_ + v]; }
@@ -63,7 +68,7 @@ class PairSpace {
   void forbid(std::size_t u, std::size_t v, unsigned what) {
     may_[u * columns_ + v] = static_cast<std::uint8_t>(may_[u * columns_ + v] & ~what);
   }
-  void forbid_leaving(const Track& a, const Track& b, const Crossing& crossing, double step);
+  void forbid_leaving(const Track& a, const Track& b, const Crossing& crossing, double step, double promise);
 
   std::size_t rows_, columns_;
   std::vector<std::uint8_t> may_;

@@ -28,6 +28,7 @@ struct Arguments {
   std::uint64_t seed = 1;
   bool json = false;
   bool optimum = false;
+  std::optional<double> promise;  // [s]
 };
 
 std::optional<ExitCode> parse(int argc, char** argv, Arguments& a) {
@@ -45,6 +46,8 @@ std::optional<ExitCode> parse(int argc, char** argv, Arguments& a) {
   cli.add_option("--seed", a.seed, "of the simulated controllers' latencies and speeds");
   cli.add_flag("--optimum", a.optimum,
                "work out the least possible time, waiting at stops and nothing else; exact for two and three robots, else a bound");
+  cli.add_option("--promise", a.promise,
+                 "with --optimum: a start may rely on a promised departure that follows within so many seconds; default: the cell file's");
   cli.add_flag("--json", a.json, "print the report as JSON instead of a summary");
   app::add_common(cli);
   return app::parse(cli, argc, argv);
@@ -115,6 +118,7 @@ ExitCode run(const Arguments& a) {
     for (auto* wanted_optimum : {&optimum, &confirmed}) {
       sim::OptimumOptions options;
       options.confirmed = wanted_optimum == &confirmed;
+      options.promise = a.promise.value_or(0);
       auto found = sim::least_makespan(*cell, *program, options);
       if (!found) {
         fmt::print(stderr, "{}\n", found.error());

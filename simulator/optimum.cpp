@@ -33,7 +33,8 @@ model::Result<std::vector<Course>, std::string> courses_of(const model::Cell& ce
   std::vector<Course> courses(cell.robots.size());
   for (RobotIndex i = 0; i < cell.robots.size(); ++i) {
     const model::Robot& robot = cell.robots[i];
-    courses[i].start = std::make_shared<SampledMotion>(model::Motion::rest(bodies.of(i, cell.set_of(robot.holds)), robot.start), cell.planning.resolution);
+    courses[i].start =
+        std::make_shared<SampledMotion>(model::Motion::rest(bodies.of(i, cell.set_of(robot.holds)), robot.start), cell.planning.resolution);
   }
   for (const auto& [name, steps] : program.robots) {
     const RobotIndex i = cell.find(name).value();
@@ -60,8 +61,11 @@ void add_leaving(const core::TimingMap& map, const core::BlockedCell& c, const C
   const auto& stops_a = course_a.track.stops;
   const auto& stops_b = course_b.track.stops;
   const bool before_b = c.t0 == -kNever, after_b = c.t1 == kNever;
-  if (a && before_b) crossing.a_leaves.push_back({*a, b, {stops_b[b], stops_b[b]}});
-  if (a && after_b && b + 1 < stops_b.size()) crossing.a_leaves.push_back({*a, b, {stops_b[b + 1], stops_b[b + 1]}});
+  if (a && before_b) crossing.a_leaves.push_back({*a, b, {stops_b[b], stops_b[b]}, c.tau1});
+  if (a && after_b && b + 1 < stops_b.size()) crossing.a_leaves.push_back({*a, b, {stops_b[b + 1], stops_b[b + 1]}, c.tau1});
+  if (a && after_b && !before_b && c.tau1 > c.t0) crossing.a_before.push_back({*a, b, {0, c.tau1 - c.t0}});
+  if (c.tau1 == kNever && b < course_b.motions.size() && !before_b && a && c.t1 > c.tau0)
+    crossing.b_before.push_back({b, *a, {0, c.t1 - c.tau0}});
   if (before_b) return;
   if (a) {
     const double from = std::max(0.0, c.t0 - c.tau1), until = std::min(map.moving_duration, c.t1 - c.tau0);
@@ -69,7 +73,7 @@ void add_leaving(const core::TimingMap& map, const core::BlockedCell& c, const C
   }
   if (b >= course_b.motions.size()) return;
   const std::size_t end_of_a = a ? *a + 1 : 0;
-  if (c.tau1 == kNever) crossing.b_leaves.push_back({b, a.value_or(0), {stops_a[end_of_a], stops_a[end_of_a]}});
+  if (c.tau1 == kNever) crossing.b_leaves.push_back({b, a.value_or(0), {stops_a[end_of_a], stops_a[end_of_a]}, c.t1});
   if (!a) return;
   const double from = std::max(0.0, c.tau0 - c.t1), until = std::min(map.commanded_duration, c.tau1 - c.t0);
   if (until > from) crossing.b_leaves.push_back({b, *a, {stops_a[*a] + from, stops_a[*a] + until}});
@@ -165,7 +169,7 @@ class Search {
     Optimum o;
     o.step = options_.pair_step;
     o.robots = {cell_.robots[i].name, cell_.robots[j].name};
-    const PairSpace space{courses_[i].track, courses_[j].track, crossings_.at({i, j}), o.step};
+    const PairSpace space{courses_[i].track, courses_[j].track, crossings_.at({i, j}), o.step, options_.promise};
     if (space.to_go(0, 0) != PairSpace::kNever) o.makespan = space.to_go(0, 0) * o.step;
     return o;
   }
@@ -176,9 +180,9 @@ class Search {
     o.robots = {cell_.robots[i].name, cell_.robots[j].name, cell_.robots[k].name};
     const std::vector<Track> tracks{courses_[i].track, courses_[j].track, courses_[k].track};
     std::vector<PairSpace> pairs;
-    pairs.emplace_back(tracks[0], tracks[1], crossings_.at({i, j}), o.step);
-    pairs.emplace_back(tracks[0], tracks[2], crossings_.at({i, k}), o.step);
-    pairs.emplace_back(tracks[1], tracks[2], crossings_.at({j, k}), o.step);
+    pairs.emplace_back(tracks[0], tracks[1], crossings_.at({i, j}), o.step, options_.promise);
+    pairs.emplace_back(tracks[0], tracks[2], crossings_.at({i, k}), o.step, options_.promise);
+    pairs.emplace_back(tracks[1], tracks[2], crossings_.at({j, k}), o.step, options_.promise);
     const TripleResult found = least_steps(tracks, pairs, o.step, options_.most_states);
     o.exact = found.complete;
     if (found.steps) o.makespan = *found.steps * o.step;

@@ -13,6 +13,7 @@ namespace interlace::sim {
 
 struct OptimumOptions {
   bool confirmed = false;     ///< starts only where the planner sends them: clear of everybody also if nobody else starts any more
+  double promise = 0;         ///< with `confirmed`: a start may rely on a departure that follows within so long [s] and relies not on it
   double pair_step = 0.01;    ///< of the lattice for two robots [s]
   double triple_step = 0.02;  ///< of the lattice for three [s]
   std::size_t most_states = 20'000'000;  ///< of the search for three, before it is content with a bound

@@ -94,8 +94,6 @@ class World {
     deliver();
     while (const auto next = next_instant()) {
       if (options_.prepare) prepare_until(*next);
-      if (*next > now_) think();
-      if (const auto sooner = planner_.next_deadline(); sooner && *sooner<*next&& * sooner> now_) continue;
       watch_until(*next);
       now_ = std::max(now_, *next);
       step();
@@ -165,13 +163,6 @@ class World {
     deliver();
     decide([&] { return planner_.advance(now_); });
     deliver();
-  }
-
-  /// While nothing is due the planner looks ahead, as long as a few decisions would take.
-  void think() {
-    constexpr int kTimes = 2;
-    for (int i = 0; i < kTimes && planner_.think(); ++i) {
-    }
   }
 
   /// The proxy reads its controller, as it does at every change, and says where the robot is.

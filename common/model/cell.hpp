@@ -19,6 +19,7 @@ struct TcpLimits {
   double acceleration = 0;                     ///< [m/s²]
   std::optional<double> angular_velocity;      ///< [rad/s]
   std::optional<double> angular_acceleration;  ///< [rad/s²]
+  double slowest = 1;                          ///< least part of its speed at which the strategy `lookahead` may let a linear move go
 };
 
 /// How far a controller may be from ideal. The planner widens its predictions by it; the simulated controller draws from it.
@@ -54,11 +55,12 @@ struct PlanningOptions {
   double resolution = 0.01;  ///< smallest cell of a collision map [s]
   double margin = 0;         ///< clearance kept beyond contact [m]
   std::string strategy = "event";
-  bool escapes = true;                     ///< robots in the way are sent out of it; else their neighbours wait for people
-  std::optional<double> lead;              ///< shortest time from a decision to a start [s]; default: the program's own
-  std::optional<double> start_tolerance;   ///< latest start after the planned one, before the controller's own latency [s]; ditto
-  std::size_t lookahead_budget = 700'000;  ///< of one decision of the strategy `lookahead`, in looks at a pair of motions
-  std::optional<Box> zone;                 ///< of the strategy `zone`; default: made from what the robots can reach
+  bool escapes = true;                    ///< robots in the way are sent out of it; else their neighbours wait for people
+  std::optional<double> lead;             ///< shortest time from a decision to a start [s]; default: the program's own
+  std::optional<double> start_tolerance;  ///< latest start after the planned one, before the controller's own latency [s]; ditto
+  double budget = 0.02;                   ///< of one decision of the strategy `lookahead` [s], counted in work, not measured
+  double promise = 2;       ///< a start of `lookahead` may be so long before a promised departure it relies on [s]; 0: only after
+  std::optional<Box> zone;  ///< of the strategy `zone`; default: made from what the robots can reach
 };
 
 /// Checked description of one cell: at least one robot, unique names, start postures reachable, inside limits and clear of each other

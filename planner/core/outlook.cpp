@@ -26,6 +26,7 @@ constexpr std::size_t kMotionsKept = 2048;  // of whose pairs the intervals are 
 constexpr std::size_t kMapWork = 6000;
 constexpr std::size_t kAdmitWork = 6000;
 constexpr std::size_t kReachWork = 50'000;
+constexpr std::size_t kStopWork = 10;
 
 bool same_place(const model::Joints& a, const model::Joints& b) {
   return (a - b).cwiseAbs().maxCoeff() <= kSamePlace;
@@ -144,9 +145,8 @@ Outlook::Forbidden Outlook::compute(RobotIndex robot, const SampledMotionPtr& mo
   return united(forbidden_by(candidate, other, timing_, maps_->get(motion, other.motion), departures));
 }
 
-/// After the start of `moving`, which somebody will have seen when it matters.
-const Outlook::Forbidden& Outlook::forbidden(RobotIndex robot, const SampledMotionPtr& motion, RobotIndex other,
-                                             const SampledMotionPtr& moving) {
+/// `motion` and what the other does, after the start of `moving`.
+const Outlook::Pair& Outlook::pair(RobotIndex robot, const SampledMotionPtr& motion, RobotIndex other, const SampledMotionPtr& moving) {
   ++work_;
   auto [entry, fresh] = forbidden_[motion->id()].try_emplace(moving->id());
   if (fresh) {
@@ -155,7 +155,11 @@ const Outlook::Forbidden& Outlook::forbidden(RobotIndex robot, const SampledMoti
     n.motion = moving;
     n.committed = true;
     n.start_until = n.start_from + robots_[other].tolerance;
-    entry->second = compute(robot, motion, n);
+    entry->second.forbidden = compute(robot, motion, n);
+    const KeptMap& map = maps_->get(motion, moving);
+    entry->second.map.map.moving_duration = map.map.moving_duration;
+    entry->second.map.passing = map.passing;
+    entry->second.map.at_end = map.at_end;
   }
   return entry->second;
 }
@@ -163,12 +167,21 @@ const Outlook::Forbidden& Outlook::forbidden(RobotIndex robot, const SampledMoti
 const Outlook::Forbidden& Outlook::forbidden_now(RobotIndex robot, const SampledMotionPtr& motion, RobotIndex other) {
   ++work_;
   auto [entry, fresh] = forbidden_now_[other].try_emplace(motion->id());
-  if (fresh) {
-    for (const Neighbour& n : robots_[other].seen) {
-      for (const StartInterval& i : compute(robot, motion, n)) entry->second.push_back(i);
-    }
-    entry->second = united(std::move(entry->second));
+  if (!fresh) return entry->second;
+  const auto& seen = robots_[other].seen;
+  if (timing_.promise && seen.size() == 2 && seen[0].started && !seen[0].lost) {
+    const Pair& first = pair(robot, motion, other, seen[0].motion);
+    const Pair& next = pair(robot, motion, other, seen[1].motion);
+    const Stop stop{seen[0].start_from, seen[0].start_until, seen[1].start_from, seen[1].start_until};
+    work_ += kStopWork;
+    const Candidate candidate{robot, motion, robots_[robot].tolerance};
+    entry->second = united(forbidden_by_stop(candidate, *seen[0].motion, stop, *timing_.promise, first.map, next.map).starts);
+    return entry->second;
   }
+  for (const Neighbour& n : seen) {
+    for (const StartInterval& i : compute(robot, motion, n)) entry->second.push_back(i);
+  }
+  entry->second = united(std::move(entry->second));
   return entry->second;
 }
 
@@ -179,6 +192,63 @@ Instant shifted(Instant t, Instant start) {
 }
 
 }  // namespace
+
+/// When `robot` may make `motion` at `node`: not before any start that is planned already, but where it relies on one of them.
+std::optional<Instant> Outlook::start_of(std::size_t node, RobotIndex robot, const SampledMotionPtr& motion) {
+  if (timing_.promise && state(node, robot).free < nodes_[node].last) {
+    if (const auto start = relying(node, robot, motion)) return start;
+  }
+  return earliest(node, robot, motion, std::max(nodes_[node].last, state(node, robot).free));
+}
+
+/// Where a robot stands between its last start and the one before.
+std::optional<Stop> Outlook::stop_of(RobotIndex robot, const RobotState& s) const {
+  const Instant leaves_until = s.start + robots_[robot].tolerance;
+  if (s.before != nullptr) return Stop{s.before_start, s.before_start + robots_[robot].tolerance, s.start, leaves_until};
+  const Neighbour& n = robots_[robot].seen.back();
+  if (!n.committed || n.lost || n.overdue) return std::nullopt;  // it stands: what its motion says of the time before it is enough
+  return Stop{n.start_from, n.start_until, s.start, leaves_until};
+}
+
+/// Earliest start before the last one that is planned, if it relies on a departure that is.
+std::optional<Instant> Outlook::relying(std::size_t node, RobotIndex robot, const SampledMotionPtr& motion) {
+  const Instant last = nodes_[node].last;
+  Instant start = std::max(state(node, robot).free, last - *timing_.promise);
+  std::vector<StartInterval> all;
+  Instant relies_from = model::kForever;
+  for (const RobotIndex other : neighbourhood_.of(robot)) {
+    const RobotState& s = state(node, other);
+    if (s.moving == nullptr) {
+      const Forbidden& intervals = forbidden_now(robot, motion, other);
+      all.insert(all.end(), intervals.begin(), intervals.end());
+      continue;
+    }
+    const auto stop = s.start <= start ? std::nullopt : stop_of(other, s);
+    const Pair& next = pair(robot, motion, other, *s.moving);
+    if (!stop) {
+      for (const StartInterval& i : next.forbidden) all.push_back({shifted(i.from, s.start), shifted(i.until, s.start)});
+      const bool stands = s.start > start && !next.forbidden.empty() && next.forbidden.front().from == model::kEarliest;
+      if (stands) relies_from = model::kEarliest;
+      continue;
+    }
+    start = std::max(start, stop->moving_until);
+    const SampledMotionPtr& first = s.before != nullptr ? *s.before : robots_[other].seen.back().motion;
+    const Pair& before = pair(robot, motion, other, first);
+    work_ += kStopWork;
+    auto f = forbidden_by_stop({robot, motion, robots_[robot].tolerance}, *first, *stop, *timing_.promise, before.map, next.map);
+    all.insert(all.end(), f.starts.begin(), f.starts.end());
+    relies_from = std::min(relies_from, f.relies_from);
+  }
+  if (relies_from >= last) return std::nullopt;
+  for (const StartInterval& i : united(std::move(all))) {
+    if (i.from > start) break;
+    if (i.until <= start) continue;
+    if (i.until == model::kForever) return std::nullopt;
+    start = i.until;
+  }
+  if (start >= last || start <= relies_from) return std::nullopt;
+  return start;
+}
 
 /// Earliest start of `motion` not before `from`, with everybody else as at `node`.
 std::optional<Instant> Outlook::earliest(std::size_t node, RobotIndex robot, const SampledMotionPtr& motion, Instant from) {
@@ -279,7 +349,7 @@ std::size_t Outlook::add(std::size_t parent, Action action, const SampledMotionP
   const std::size_t index = nodes_.size();
   Node node;
   node.parent = parent;
-  node.last = action.start;
+  node.last = std::max(nodes_[parent].last, action.start);
   const Instant end = action.start + robots_[action.robot].tolerance + duration_of(motion);
   node.end = std::max(nodes_[parent].end, end);
   node.flow = nodes_[parent].flow;
@@ -292,6 +362,8 @@ std::size_t Outlook::add(std::size_t parent, Action action, const SampledMotionP
   states_.resize((index + 1) * n);
   std::copy_n(states_.begin() + static_cast<std::ptrdiff_t>(parent * n), n, states_.begin() + static_cast<std::ptrdiff_t>(index * n));
   RobotState& s = states_[index * n + action.robot];
+  s.before = s.moving;
+  s.before_start = s.start;
   s.moving = &motion;
   s.start = action.start;
   s.free = end + lead_;
@@ -309,7 +381,7 @@ void Outlook::expand(std::size_t parent, std::size_t most_detours, std::vector<s
   for (RobotIndex i = 0; i < n; ++i) {
     const RobotState s = state(parent, i);
     if (!s.place->next) continue;
-    const auto start = earliest(parent, i, s.place->next, std::max(nodes_[parent].last, s.free));
+    const auto start = start_of(parent, i, s.place->next);
     will[i] = start ? Will::go : Will::wait;
     if (!start) continue;
     if (Place* to = after_command(i, *s.place)) commands.push_back(add(parent, {i, {}, i, *start}, s.place->next, to));
@@ -403,7 +475,7 @@ std::optional<OutlookPlan> Outlook::follow(const OutlookPlan& plan) {
     const RobotState s = state(node, p.robot);
     const SampledMotionPtr* motion = p.detour ? kept(*s.place->posture, *p.detour) : &s.place->next;
     if (motion == nullptr || !*motion) return std::nullopt;
-    const auto start = earliest(node, p.robot, *motion, std::max(nodes_[node].last, s.free));
+    const auto start = start_of(node, p.robot, *motion);
     Place* to = p.detour ? after_detour(p.robot, *s.place, *p.detour) : after_command(p.robot, *s.place);
     if (!start || !to) return std::nullopt;
     node = add(node, {p.robot, p.detour.value_or(Detour{}), p.serves, *start}, *motion, to);

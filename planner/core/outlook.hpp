@@ -90,6 +90,10 @@ class Outlook {
 
   /// When a motion forbids another to start, after its own start.
   using Forbidden = std::vector<StartInterval>;
+  struct Pair {
+    Forbidden forbidden;  // with the other standing where it was before, for good
+    KeptMap map;          // without its cells
+  };
   /// A way out of a place and how far it leads.
   struct Way {
     model::EscapeWay way;
@@ -120,6 +124,8 @@ class Outlook {
     Place* place = nullptr;
     const SampledMotionPtr* moving = nullptr;  // null: as it was at first
     Instant start{};
+    const SampledMotionPtr* before = nullptr;  // what it did before that; null: as it was at first
+    Instant before_start{};
     Instant free{};
   };
   struct Action {
@@ -153,10 +159,16 @@ class Outlook {
   [[nodiscard]] const RobotState& state(std::size_t node, model::RobotIndex i) const { return states_[node * robots_.size() + i]; }
   [[nodiscard]] bool complete(std::size_t node) const;
 
+  std::optional<Instant> start_of(std::size_t node, model::RobotIndex robot, const SampledMotionPtr& motion);
   std::optional<Instant> earliest(std::size_t node, model::RobotIndex robot, const SampledMotionPtr& motion, Instant from);
+  std::optional<Instant> relying(std::size_t node, model::RobotIndex robot, const SampledMotionPtr& motion);
+  [[nodiscard]] std::optional<Stop> stop_of(model::RobotIndex robot, const RobotState& s) const;
   [[nodiscard]] bool blocks_for_good(std::size_t node, model::RobotIndex blocker, model::RobotIndex robot, const SampledMotionPtr& motion);
+  const Pair& pair(model::RobotIndex robot, const SampledMotionPtr& motion, model::RobotIndex other, const SampledMotionPtr& moving);
   const Forbidden& forbidden(model::RobotIndex robot, const SampledMotionPtr& motion, model::RobotIndex other,
-                             const SampledMotionPtr& moving);
+                             const SampledMotionPtr& moving) {
+    return pair(robot, motion, other, moving).forbidden;
+  }
   const Forbidden& forbidden_now(model::RobotIndex robot, const SampledMotionPtr& motion, model::RobotIndex other);
   Forbidden compute(model::RobotIndex robot, const SampledMotionPtr& motion, const Neighbour& other);
 
@@ -172,8 +184,8 @@ class Outlook {
 
   const model::Cell& cell_;
   Neighbourhood neighbourhood_;
-  std::vector<std::deque<Posture>> postures_;                                                  // by robot; kept
-  std::unordered_map<std::uint64_t, std::unordered_map<std::uint64_t, Forbidden>> forbidden_;  // by own and other motion; kept
+  std::vector<std::deque<Posture>> postures_;                                             // by robot; kept
+  std::unordered_map<std::uint64_t, std::unordered_map<std::uint64_t, Pair>> forbidden_;  // by own and other motion; kept
   std::vector<OutlookRobot> robots_;
   Timing timing_;
   Duration lead_{};

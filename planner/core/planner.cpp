@@ -68,6 +68,7 @@ void Planner::schedule(Instant now, Decisions& out) {
       publish(next->status, out);
   }
   send_due(now, out);
+  warn_of_broken_promises(out);
 }
 
 /// Robots that stand and have a command, longest ready first.
@@ -189,7 +190,11 @@ void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment
   c.serial = ++r.last_serial;
   c.start_from = *a.start;
   c.start_until = *a.start + candidate.tolerance;
-  for (const model::RobotIndex other : a.departures) c.departures.emplace_back(other, robots_[other].last_committed());
+  for (const model::RobotIndex other : a.departures) {
+    const RobotRecord& o = robots_[other];
+    c.departures.emplace_back(other, o.last_committed());
+    c.on_promise = c.on_promise || c.start_from < (o.following ? *o.following : *o.committed).start_until + options_.confirm;
+  }
   status.state = CommandState::scheduled;
   status.reason = a.reason;
   status.start = c.start_from;
@@ -208,15 +213,20 @@ void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment
   changed(r);
 }
 
+Planner::Departures Planner::departure_of(model::RobotIndex robot, std::uint64_t serial, bool on_promise) const {
+  const RobotRecord& other = robots_[robot];
+  if (other.last_started >= serial || (on_promise && promises(other, serial))) return Departures::met;
+  const bool still_to_come =
+      (other.committed && other.committed->serial == serial) || (other.following && other.following->serial == serial);
+  return still_to_come ? Departures::open : Departures::broken;
+}
+
 Planner::Departures Planner::departures_of(const Commitment& c) const {
   Departures result = Departures::met;
   for (const auto& [robot, serial] : c.departures) {
-    const RobotRecord& other = robots_[robot];
-    if (other.last_started >= serial) continue;
-    const bool still_to_come =
-        (other.committed && other.committed->serial == serial) || (other.following && other.following->serial == serial);
-    if (!still_to_come) return Departures::broken;
-    result = Departures::open;
+    const Departures departure = departure_of(robot, serial, c.on_promise);
+    if (departure == Departures::broken) return departure;
+    if (departure == Departures::open) result = departure;
   }
   return result;
 }
@@ -234,7 +244,7 @@ void Planner::send_due(Instant now, Decisions& out) {
     const bool too_late = now > c.start_from;
     if (departures == Departures::broken || too_late || r.lost() || !r.ready) {
       put_back(r, Reason::none, {}, out);  // what its window was proven for no longer holds
-    } else if (now >= c.start_from - options_.lead && departures == Departures::met) {
+    } else if (departures == Departures::met && (now >= c.start_from - options_.lead || relying_on(r, c, false) != nullptr)) {
       ++c.command.attempts;
       c.phase = Commitment::Phase::dispatched;
       dispatch(r, now, out);

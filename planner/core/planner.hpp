@@ -65,10 +65,6 @@ class Planner {
   /// When advance() has something to do next, if nothing else happens.
   [[nodiscard]] std::optional<Instant> next_deadline() const;
 
-  /// Between decisions: looks further ahead, as far as one decision may. False when there is nothing more to find. Changes what is decided
-  /// next, and when.
-  bool think();
-
   /// The whole state, for the heartbeat. `cell`, `fingerprint` and `incarnation` are the caller's to fill.
   [[nodiscard]] model::PlannerState state(Instant now) const;
 
@@ -121,11 +117,13 @@ class Planner {
   [[nodiscard]] std::vector<Neighbour> neighbours_of(const RobotRecord& r, Instant now) const;
   [[nodiscard]] Candidate candidate_of(const RobotRecord& r, const SampledMotionPtr& motion) const;
   [[nodiscard]] Timing timing_at(Instant now) const { return {now + options_.lead, options_.confirm}; }
+  [[nodiscard]] Timing timing_ahead(Instant now) const;
   bool try_commit(RobotRecord& r, Instant now, Decisions& out);
   void commit_next(RobotRecord& r, const Candidate& candidate, Assessment a, Instant could_start, Decisions& out, std::string text = {});
   void send_due(Instant now, Decisions& out);
   enum class Departures { open, met, broken };
   [[nodiscard]] Departures departures_of(const Commitment& c) const;
+  [[nodiscard]] Departures departure_of(model::RobotIndex robot, std::uint64_t serial, bool on_promise) const;
   void dispatch(RobotRecord& r, Instant now, Decisions& out);
 
   // Deadlocks: planner_escapes.cpp
@@ -156,8 +154,15 @@ class Planner {
   void look_ahead(Instant now);
   void search_ahead();
   void look_from(Instant now);
+  [[nodiscard]] Instant free_at(const RobotRecord& r, Instant now) const;
   [[nodiscard]] OutlookRobot outlook_robot(const RobotRecord& r, Instant now) const;
   bool start_as_planned(const PlannedStart& planned, Instant now, Decisions& out);
+  [[nodiscard]] bool somebody_is_about_to_start(Instant now) const;
+
+  // Promises: planner_promises.cpp
+  [[nodiscard]] bool promises(const RobotRecord& r, std::uint64_t serial) const;
+  [[nodiscard]] const RobotRecord* relying_on(const RobotRecord& r, const Commitment& promised, bool under_way) const;
+  void warn_of_broken_promises(Decisions& out);
   void let_others_go_first();
   [[nodiscard]] std::optional<Instant> rehearsed_end(Instant now);
 

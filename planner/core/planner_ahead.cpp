@@ -13,7 +13,8 @@ using model::Reason;
 
 namespace {
 
-constexpr std::size_t kFirstLook = 15;  // budgets for a decision while nobody moves
+constexpr double kFirstLook = 15;        // budgets for a decision while nobody moves
+constexpr double kWorkPerSecond = 30e6;  // of Outlook
 
 }  // namespace
 
@@ -30,18 +31,24 @@ void Planner::serve_ahead(Instant now, Decisions& out) {
   if (ahead_.seen != revision_) look_ahead(now);
   bool again = false;  // the plan was made for a moment ago: its times may need another look
   while (ahead_.plan && !ahead_.plan->starts.empty()) {
-    const PlannedStart& next = ahead_.plan->starts.front();
-    const bool arriving = robots_[next.robot].committed.has_value();
-    if (arriving || next.start > now + options_.lead) {
-      if (!arriving) ahead_.wake = next.start - options_.lead;
+    auto& starts = ahead_.plan->starts;
+    const auto due = std::find_if(starts.begin(), starts.end(), [&](const PlannedStart& s) {
+      return s.start <= now + options_.lead && !robots_[s.robot].committed.has_value();
+    });
+    if (due == starts.end()) {
+      for (const PlannedStart& s : starts) {
+        if (!robots_[s.robot].committed) ahead_.wake = std::min(ahead_.wake.value_or(model::kForever), s.start - options_.lead);
+      }
       let_others_go_first();
       break;
     }
-    if (start_as_planned(next, now, out)) {
-      ahead_.plan->starts.erase(ahead_.plan->starts.begin());
+    // What is decided before it and starts later is what it relies on.
+    if (start_as_planned(starts.front(), now, out)) {
+      starts.erase(starts.begin());
       again = false;
       continue;
     }
+    if (somebody_is_about_to_start(now)) break;
     if (!again) look_from(now);
     ahead_.plan = again ? std::nullopt : ahead_.outlook->follow(*ahead_.plan);
     again = true;
@@ -51,17 +58,20 @@ void Planner::serve_ahead(Instant now, Decisions& out) {
   ahead_.seen = revision_;
 }
 
+/// When `r` can start anything after what it is committed to.
+Instant Planner::free_at(const RobotRecord& r, Instant now) const {
+  if (!r.committed) return now + options_.lead;
+  const Commitment& last = r.following ? *r.following : *r.committed;
+  const double longest = last.command.motion->motion().duration() * (1 + r.robot->controller.speed_error);
+  return std::max(now, last.start_until + model::from_seconds(longest)) + options_.lead;
+}
+
 OutlookRobot Planner::outlook_robot(const RobotRecord& r, Instant now) const {
   OutlookRobot o;
   r.add_as_neighbour(index_of(r), now, o.seen);
   o.tolerance = candidate_of(r, nullptr).tolerance;
-  o.free = now + options_.lead;
-  if (r.committed) {
-    const Neighbour& last = o.seen.back();
-    o.free = std::max(now, last.start_until + model::from_seconds(last.motion->motion().duration())) + options_.lead;
-  } else if (!r.trail.empty()) {
-    o.back = r.trail.front();
-  }
+  o.free = free_at(r, now);
+  if (!r.committed && !r.trail.empty()) o.back = r.trail.front();
   for (const auto* queue : {&r.escapes, &r.queue}) {
     for (const QueuedCommand& c : *queue) o.queue.push_back({c.request, c.motion});
   }
@@ -71,7 +81,7 @@ OutlookRobot Planner::outlook_robot(const RobotRecord& r, Instant now) const {
 void Planner::look_from(Instant now) {
   std::vector<OutlookRobot> robots;
   for (const RobotRecord& r : robots_) robots.push_back(outlook_robot(r, now));
-  ahead_.look = ahead_.outlook->look(std::move(robots), timing_at(now), options_.lead, maps_);
+  ahead_.look = ahead_.outlook->look(std::move(robots), timing_ahead(now), options_.lead, maps_);
 }
 
 /// Keeps the plan as far as it still holds, and looks for a better one.
@@ -93,30 +103,30 @@ void Planner::look_ahead(Instant now) {
 /// Puts one decision's work into a better plan.
 void Planner::search_ahead() {
   // While all stand there is nothing to be late for.
-  const std::size_t budget = all_stand() ? kFirstLook : 1;
+  const double budget = cell_->planning.budget * kWorkPerSecond * (all_stand() ? kFirstLook : 1);
   const auto no_later = ahead_.plan ? std::nullopt : ahead_.event_ends;
-  auto better = ahead_.outlook->search(no_later, ahead_.plan ? &*ahead_.plan : nullptr, budget * cell_->planning.lookahead_budget, maps_);
+  auto better = ahead_.outlook->search(no_later, ahead_.plan ? &*ahead_.plan : nullptr, static_cast<std::size_t>(budget), maps_);
   if (better && (!no_later || better->end < *no_later)) ahead_.plan = std::move(better);
 }
 
-bool Planner::think() {
-  const bool as_it_was =
-      ahead_.outlook && ahead_.look == ahead_.outlook->looks() && ahead_.seen == revision_ && !ahead_.arrived && !clearing_;
-  if (!as_it_was || ahead_.outlook->exhausted()) return false;
-  search_ahead();
-  if (ahead_.plan && !ahead_.plan->starts.empty()) ahead_.wake = ahead_.plan->starts.front().start - options_.lead;
-  return true;
+/// Somebody was told to start by now and has not been heard of since: what he says comes first.
+bool Planner::somebody_is_about_to_start(Instant now) const {
+  return std::any_of(robots_.begin(), robots_.end(), [&](const RobotRecord& r) {
+    return r.committed && r.committed->phase == Commitment::Phase::dispatched && r.committed->start_from <= now + options_.lead;
+  });
 }
 
-/// Makes a planned start a fact when it is as early as planned.
+/// Makes a planned start a fact when it is as early as planned. One that others rely on may be that before its time has come.
 bool Planner::start_as_planned(const PlannedStart& planned, Instant now, Decisions& out) {
   RobotRecord& r = robots_[planned.robot];
-  if (r.committed || r.lost() || !r.ready) return false;
+  if (r.following || r.lost() || !r.ready || (r.committed && planned.detour)) return false;
   const SampledMotionPtr motion = planned.detour ? planned.detour->motion : r.next() ? r.next()->motion : nullptr;
   if (!motion) return false;
   const Candidate candidate = candidate_of(r, motion);
-  Assessment a = strategy_->assess(candidate, neighbours_of(r, now), timing_at(now), maps_);
-  if (!a.start || *a.start > now + options_.lead) return false;
+  Timing timing = timing_ahead(now);
+  timing.earliest = std::max(timing.earliest, free_at(r, now));
+  Assessment a = strategy_->assess(candidate, neighbours_of(r, now), timing, maps_);
+  if (!a.start || *a.start > std::max(now + options_.lead, planned.start)) return false;
   if (planned.detour) {
     const RobotRecord& served = robots_[planned.serves];
     if (!served.next()) return false;

@@ -231,7 +231,10 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
   const Duration uncertainty = model::from_seconds(event.uncertainty);
 
   switch (event.state) {
-    case ExecutionState::accepted: c.accepted = true; return out;
+    case ExecutionState::accepted:
+      c.accepted = true;
+      if (relying_on(r, c, false) != nullptr) schedule(now, out);
+      return out;
     case ExecutionState::started:
       if (c.start_told) return out;
       c.start_told = true;

@@ -35,7 +35,9 @@ struct Commitment {
   std::uint64_t serial = 0;                                             ///< tells commitments of one robot apart
   Instant start_from{};                                                 ///< planned start, or the earliest it can have been
   Instant start_until{};                                                ///< latest start
-  std::vector<std::pair<model::RobotIndex, std::uint64_t>> departures;  ///< commitments that must have started before this is sent
+  std::vector<std::pair<model::RobotIndex, std::uint64_t>> departures;  ///< commitments that must have started before this is sent,
+  bool on_promise = false;                                              ///< or be promised
+  bool endangered = false;                                              ///< started, and one of them will not start as promised: told
   bool cancel_requested = false;
   bool accepted = false;    ///< the proxy has confirmed the dispatch
   bool start_told = false;  ///< the proxy has reported the start; a posture alone shows only that it has begun

@@ -95,9 +95,10 @@ robots:
 
 TEST(CellValues, EveryStrategyAndItsBudget) {
   for (const std::string name : {"direct", "zone", "eef-map", "acm", "event", "lookahead"}) {
-    const auto cell = accepted(replaced(kCell, "strategy: direct", "strategy: " + name + "\n  lookahead_budget: 1000"));
+    const auto cell = accepted(replaced(kCell, "strategy: direct", "strategy: " + name + "\n  budget: 0.5\n  promise: 1.5"));
     EXPECT_EQ(cell.planning.strategy, name);
-    EXPECT_EQ(cell.planning.lookahead_budget, 1000U);
+    EXPECT_EQ(cell.planning.budget, 0.5);
+    EXPECT_EQ(cell.planning.promise, 1.5);
   }
 }
 

@@ -51,7 +51,7 @@ TEST(Lookahead, IsNeverLaterThanEventAndTellsTheSameStoryTwice) {
 
 TEST(Lookahead, WithoutABudgetIsEvent) {
   auto cell = std::make_shared<model::Cell>(*deployed_cell("exp-6-2"));
-  cell->planning.lookahead_budget = 0;
+  cell->planning.budget = 0;
   const auto program = app::load_program(deployed("exp-6-2/program.yaml"), cell.get()).value();
   EXPECT_EQ(run(cell, program, "lookahead").makespan, run(cell, program, "event").makespan);
 }

@@ -1,0 +1,57 @@
+// Starts that rely on a departure which is promised and not reported yet: what counts as a promise, and what is said when one is broken.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "planner/core/planner.hpp"
+
+namespace interlace::core {
+
+Timing Planner::timing_ahead(Instant now) const {
+  Timing timing = timing_at(now);
+  if (cell_->planning.promise > 0) timing.promise = model::from_seconds(cell_->planning.promise);
+  return timing;
+}
+
+/// Whether `r` may be relied on to start its commitment `serial` in its window: its proxy has accepted that, or it is carrying out the
+/// motion before it, as told. It is heard from.
+bool Planner::promises(const RobotRecord& r, std::uint64_t serial) const {
+  if (r.lost() || !r.committed) return false;
+  if (r.committed->serial == serial) return r.committed->phase == Commitment::Phase::dispatched && r.committed->accepted;
+  return r.following && r.following->serial == serial && r.committed->phase == Commitment::Phase::started;
+}
+
+/// A robot whose start relies on the start of `promised` by `r`, which has not been reported; null when there is none. `under_way`: one
+/// that has been told to start, or has.
+const RobotRecord* Planner::relying_on(const RobotRecord& r, const Commitment& promised, bool under_way) const {
+  if (promised.phase == Commitment::Phase::started) return nullptr;
+  for (const RobotRecord& other : robots_) {
+    if (!other.committed || !other.committed->on_promise) continue;
+    if (under_way == (other.committed->phase == Commitment::Phase::held)) continue;
+    for (const auto& [robot, serial] : other.committed->departures) {
+      if (robot == index_of(r) && serial == promised.serial) return &other;
+    }
+  }
+  return nullptr;
+}
+
+/// A robot is on its way to where another one should have left and will not: nobody can stop it, so people are told at once, and the other
+/// one is planned again at once.
+void Planner::warn_of_broken_promises(Decisions& out) {
+  for (RobotRecord& r : robots_) {
+    if (!r.committed || !r.committed->on_promise || r.committed->phase != Commitment::Phase::started || r.committed->endangered) continue;
+    for (const auto& [robot, serial] : r.committed->departures) {
+      const RobotRecord& other = robots_[robot];
+      if (departure_of(robot, serial, false) != Departures::broken && !other.lost()) continue;
+      if (other.last_started >= serial) continue;
+      r.committed->endangered = true;
+      model::CommandStatus& status = r.committed->command.status;
+      status.reason = model::Reason::blocked;
+      status.text = fmt::format("{} is under way to where {} was to have left from, and {} does not leave as promised: they may collide",
+                                r.robot->name.str(), other.robot->name.str(), other.robot->name.str());
+      publish(status, out);
+    }
+  }
+}
+
+}  // namespace interlace::core
