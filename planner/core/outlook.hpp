@@ -40,8 +40,9 @@ struct Detour {
 /// A start in a plan.
 struct PlannedStart {
   model::RobotIndex robot = 0;
-  std::optional<Detour> detour;  ///< empty: the robot's next command
-  model::RobotIndex serves = 0;  ///< of a detour: whose next command it makes room for
+  std::optional<Detour> detour;         ///< empty: the robot's next command
+  std::optional<WaitingMotion> slower;  ///< that command at another speed, where it is done sooner so
+  model::RobotIndex serves = 0;         ///< of a detour: whose next command it makes room for
   Instant start{};
 };
 
@@ -77,6 +78,9 @@ class Outlook {
   [[nodiscard]] std::optional<OutlookPlan> search(const std::optional<Instant>& no_later, const OutlookPlan* best, std::size_t budget,
                                                   MapStore& maps);
 
+  /// A plan that is better than `plan` because somebody who would wait sets out at once instead and goes slower; empty when there is none.
+  [[nodiscard]] std::optional<OutlookPlan> slowed_down(const OutlookPlan& plan, std::size_t budget, MapStore& maps);
+
   /// The last search from this state tried all that it knows.
   [[nodiscard]] bool exhausted() const { return next_beam_ >= kBeams; }
 
@@ -104,9 +108,9 @@ class Outlook {
   struct Posture {
     model::Joints q;
     const model::Robot* body = nullptr;  // with what it holds
-    std::optional<std::vector<Way>> ways;
+    std::optional<std::vector<Way>> known, sought;
     std::map<std::uint64_t, std::vector<Detour>> detours;  // by the motion that room is made for
-    std::deque<SampledMotionPtr> followed;                 // detours of plans, when their own place is gone
+    std::deque<SampledMotionPtr> followed;                 // of plans: detours whose own place is gone, and slower commands
     std::map<std::uint64_t, SampledMotionPtr> from_here;   // commands by the motion they are from elsewhere; null: not possible
   };
   /// Where a robot stands with how many commands done.
@@ -130,9 +134,10 @@ class Outlook {
   };
   struct Action {
     model::RobotIndex robot = 0;
-    Detour detour;  // motion null: its next command
+    const Detour* detour = nullptr;  // null: its next command
     model::RobotIndex serves = 0;
     Instant start{};
+    const WaitingMotion* slower = nullptr;  // that command at another speed
   };
   struct Node {
     std::size_t parent = 0;
@@ -152,9 +157,10 @@ class Outlook {
   [[nodiscard]] static Beam beam(std::size_t index);
   [[nodiscard]] std::optional<OutlookPlan> run(const Beam& beam, std::optional<Instant> no_later, const OutlookPlan* best);
   void expand(std::size_t parent, std::size_t most_detours, std::vector<std::size_t>& commands, std::vector<std::size_t>& detours);
-  std::size_t add(std::size_t parent, Action action, const SampledMotionPtr& motion, Place* to);
+  std::size_t add(std::size_t parent, const Action& action, const SampledMotionPtr& motion, Place* to);
   [[nodiscard]] bool begin();
-  [[nodiscard]] static const SampledMotionPtr* kept(Posture& posture, const Detour& detour);
+  std::optional<OutlookPlan> with_slower(const OutlookPlan& plan, std::size_t which, double part);
+  [[nodiscard]] static const SampledMotionPtr* kept(Posture& posture, const SampledMotionPtr& motion);
   [[nodiscard]] OutlookPlan plan_to(std::size_t node) const;
   [[nodiscard]] const RobotState& state(std::size_t node, model::RobotIndex i) const { return states_[node * robots_.size() + i]; }
   [[nodiscard]] bool complete(std::size_t node) const;
@@ -170,6 +176,7 @@ class Outlook {
     return pair(robot, motion, other, moving).forbidden;
   }
   const Forbidden& forbidden_now(model::RobotIndex robot, const SampledMotionPtr& motion, model::RobotIndex other);
+  const KeptMap& map_of(const SampledMotionPtr& motion, const SampledMotionPtr& moving);
   Forbidden compute(model::RobotIndex robot, const SampledMotionPtr& motion, const Neighbour& other);
 
   Posture* posture_at(model::RobotIndex robot, const model::Joints& q, const model::Robot& body);
@@ -178,7 +185,8 @@ class Outlook {
   Place* after_command(model::RobotIndex robot, Place& place);
   Place* after_detour(model::RobotIndex robot, Place& place, const Detour& detour);
   const std::vector<Detour>& detours_of(model::RobotIndex robot, Place& place, const SampledMotionPtr& served);
-  const std::vector<Way>& ways_of(model::RobotIndex robot, Place& place);
+  const std::vector<Way>& ways_known(model::RobotIndex robot, Place& place);
+  const std::vector<Way>& ways_sought(model::RobotIndex robot, Place& place);
   SampledMotionPtr admitted(model::RobotIndex robot, const model::MotionBodies& bodies, const model::Joints& from,
                             const model::MotionRequest& request);
 

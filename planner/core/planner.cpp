@@ -68,7 +68,7 @@ void Planner::schedule(Instant now, Decisions& out) {
       publish(next->status, out);
   }
   send_due(now, out);
-  warn_of_broken_promises(out);
+  give_up_broken_promises(out);
 }
 
 /// Robots that stand and have a command, longest ready first.

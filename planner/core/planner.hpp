@@ -47,7 +47,8 @@ struct Decisions {
 /// time they happened, decisions come out as values. `now` never goes backwards. Not thread-safe. A copy goes its own way from there, but
 /// in the same thread: copies share what has been computed of motions.
 /// Promise: a dispatch is sent only for a start that is clear of every motion in progress or promised, wherever in their windows those
-/// start, and also if one that has not been confirmed never starts.
+/// start, and also if one that has not been confirmed never starts. Strategy `lookahead` may rely on a departure before it is confirmed,
+/// for no longer than the cell's `planning.promise` and only where it is promised (planner_promises.cpp, docs/adr/0006-look-ahead.md).
 class Planner {
  public:
   /// Throws std::invalid_argument when the strategy is unknown. `cell` must have been checked (common/app/config).
@@ -96,6 +97,7 @@ class Planner {
   void rejudge_queue(RobotRecord& r, Decisions& out);
   void drop_escapes(RobotRecord& r, Decisions& out);
   bool cancel(RobotRecord& r, const model::CommandId& id, Decisions& out);
+  [[nodiscard]] std::string why_not_cancelled(const RobotRecord& r, const model::CommandStatus& status) const;
   void publish(const model::CommandStatus& status, Decisions& out);
 
   // Robots: planner_robots.cpp
@@ -162,7 +164,7 @@ class Planner {
   // Promises: planner_promises.cpp
   [[nodiscard]] bool promises(const RobotRecord& r, std::uint64_t serial) const;
   [[nodiscard]] const RobotRecord* relying_on(const RobotRecord& r, const Commitment& promised, bool under_way) const;
-  void warn_of_broken_promises(Decisions& out);
+  void give_up_broken_promises(Decisions& out);
   void let_others_go_first();
   [[nodiscard]] std::optional<Instant> rehearsed_end(Instant now);
 

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
+#include "planner/core/outlook_work.hpp"
 #include "planner/core/planner.hpp"
 
 namespace interlace::core {
@@ -13,8 +15,7 @@ using model::Reason;
 
 namespace {
 
-constexpr double kFirstLook = 15;        // budgets for a decision while nobody moves
-constexpr double kWorkPerSecond = 30e6;  // of Outlook
+constexpr double kFirstLook = 15;  // budgets for a decision while nobody moves
 
 }  // namespace
 
@@ -107,6 +108,8 @@ void Planner::search_ahead() {
   const auto no_later = ahead_.plan ? std::nullopt : ahead_.event_ends;
   auto better = ahead_.outlook->search(no_later, ahead_.plan ? &*ahead_.plan : nullptr, static_cast<std::size_t>(budget), maps_);
   if (better && (!no_later || better->end < *no_later)) ahead_.plan = std::move(better);
+  if (!ahead_.plan) return;
+  if (auto slower = ahead_.outlook->slowed_down(*ahead_.plan, static_cast<std::size_t>(budget), maps_)) ahead_.plan = std::move(slower);
 }
 
 /// Somebody was told to start by now and has not been heard of since: what he says comes first.
@@ -120,8 +123,8 @@ bool Planner::somebody_is_about_to_start(Instant now) const {
 bool Planner::start_as_planned(const PlannedStart& planned, Instant now, Decisions& out) {
   RobotRecord& r = robots_[planned.robot];
   if (r.following || r.lost() || !r.ready || (r.committed && planned.detour)) return false;
-  const SampledMotionPtr motion = planned.detour ? planned.detour->motion : r.next() ? r.next()->motion : nullptr;
-  if (!motion) return false;
+  if (!planned.detour && !r.next()) return false;
+  const SampledMotionPtr motion = planned.detour ? planned.detour->motion : planned.slower ? planned.slower->motion : r.next()->motion;
   const Candidate candidate = candidate_of(r, motion);
   Timing timing = timing_ahead(now);
   timing.earliest = std::max(timing.earliest, free_at(r, now));
@@ -136,7 +139,13 @@ bool Planner::start_as_planned(const PlannedStart& planned, Instant now, Decisio
   }
   std::string text;
   const double delay = model::to_seconds(*a.start - (r.ready_since + options_.lead));
-  if (delay > 0 && r.next()->status.state == CommandState::waiting && a.conflicts.empty() && r.next()->status.conflicts.empty()) {
+  if (planned.slower) {
+    QueuedCommand& command = *r.next();
+    const double longer = motion->motion().duration() / command.motion->motion().duration();
+    command.full_speed.emplace(command.request, std::exchange(command.motion, motion));
+    command.request = planned.slower->request;
+    text = fmt::format("{} goes at once and takes {:.2f} times as long, which ends sooner than to wait", r.robot->name.str(), longer);
+  } else if (delay > 0 && r.next()->status.state == CommandState::waiting && a.conflicts.empty() && r.next()->status.conflicts.empty()) {
     a.reason = Reason::delayed;
     text = fmt::format("{} starts {:.2f} s later: others went first, which ends sooner", r.robot->name.str(), delay);
   }

@@ -35,22 +35,30 @@ const RobotRecord* Planner::relying_on(const RobotRecord& r, const Commitment& p
   return nullptr;
 }
 
-/// A robot is on its way to where another one should have left and will not: nobody can stop it, so people are told at once, and the other
-/// one is planned again at once.
-void Planner::warn_of_broken_promises(Decisions& out) {
+/// A start that was sent, or is under way, to where another robot should have left and will not. What has not begun is withdrawn. What has
+/// nobody can stop: people are told at once, and the other one is planned again at once.
+void Planner::give_up_broken_promises(Decisions& out) {
   for (RobotRecord& r : robots_) {
-    if (!r.committed || !r.committed->on_promise || r.committed->phase != Commitment::Phase::started || r.committed->endangered) continue;
-    for (const auto& [robot, serial] : r.committed->departures) {
-      const RobotRecord& other = robots_[robot];
-      if (departure_of(robot, serial, false) != Departures::broken && !other.lost()) continue;
-      if (other.last_started >= serial) continue;
-      r.committed->endangered = true;
-      model::CommandStatus& status = r.committed->command.status;
-      status.reason = model::Reason::blocked;
-      status.text = fmt::format("{} is under way to where {} was to have left from, and {} does not leave as promised: they may collide",
-                                r.robot->name.str(), other.robot->name.str(), other.robot->name.str());
-      publish(status, out);
+    if (!r.committed || !r.committed->on_promise || r.committed->phase == Commitment::Phase::held || r.committed->endangered) continue;
+    Commitment& c = *r.committed;
+    const auto broken = std::find_if(c.departures.begin(), c.departures.end(), [&](const auto& departure) {
+      const auto& [robot, serial] = departure;
+      const bool left = robots_[robot].last_started >= serial;
+      return !left && (robots_[robot].lost() || departure_of(robot, serial, false) == Departures::broken);
+    });
+    if (broken == c.departures.end()) continue;
+    c.endangered = true;
+    model::CommandStatus& status = c.command.status;
+    if (c.phase == Commitment::Phase::dispatched) {
+      const bool said = std::any_of(out.withdrawals.begin(), out.withdrawals.end(), [&](const auto& w) { return w.id == status.id; });
+      if (!said) out.withdrawals.push_back({status.id, r.robot->name, c.command.attempts});
+      continue;
     }
+    const auto& other = robots_[broken->first].robot->name.str();
+    status.reason = model::Reason::blocked;
+    status.text = fmt::format("{} is under way to where {} was to have left from, and {} does not leave as promised: they may collide",
+                              r.robot->name.str(), other, other);
+    publish(status, out);
   }
 }
 

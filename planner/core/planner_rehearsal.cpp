@@ -32,7 +32,8 @@ std::optional<Instant> Planner::rehearsed_end(Instant now) {
   std::vector<std::optional<Doing>> doing(robots_.size());
   std::size_t commands = robots_.size();
   const auto take_up = [&](model::RobotIndex i, Instant start) {
-    const Commitment& c = *copy.robots_[i].committed;
+    Commitment& c = *copy.robots_[i].committed;
+    c.accepted = true;
     Doing d;
     d.report.id = c.command.status.id;
     d.report.robot = copy.robots_[i].robot->name;

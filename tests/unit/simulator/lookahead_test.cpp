@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "simulator/generator.hpp"
 #include "simulator/virtual_cell.hpp"
 #include "tests/support/seed.hpp"
@@ -21,12 +25,45 @@ void expect_all_done(const app::RunReport& r) {
   EXPECT_EQ(r.warnings, 0U);
 }
 
-TEST(Lookahead, FourArmsInTheLeastTimeThatSafeStartsAllow) {
-  const auto cell = deployed_cell("exp-6-2");
-  const auto program = app::load_program(deployed("exp-6-2/program.yaml"), cell.get()).value();
-  const auto report = run(cell, program, "lookahead");
-  expect_all_done(report);
-  EXPECT_NEAR(report.makespan, 38.50, 0.02) << "the bound of all groups of three; event takes 42.14 s";
+app::RunReport run_experiment(const std::string& name, double promise, double slowest = 1, bool prepare = false) {
+  auto cell = std::make_shared<model::Cell>(*deployed_cell(name));
+  cell->planning.promise = promise;
+  for (model::Robot& robot : cell->robots) robot.tcp.slowest = slowest;
+  sim::VirtualOptions options;
+  options.strategy = "lookahead";
+  options.prepare = prepare;
+  return sim::run_virtual(cell, app::load_program(deployed(name + "/program.yaml"), cell.get()).value(), options);
+}
+
+/// The targets of the experiments sent twice: within 2 or 3 % of the least possible makespan.
+TEST(Lookahead, IsNearTheOptimum) {
+  const std::vector<std::pair<std::string, double>> targets{
+      {"exp-4-1", 42.04}, {"exp-4-2", 29.47}, {"exp-5-1", 40.57}, {"exp-6-1", 37.23}, {"exp-6-2", 38.6}};
+  for (const auto& [name, most] : targets) {
+    const auto report = run_experiment(name, model::PlanningOptions{}.promise);
+    expect_all_done(report);
+    EXPECT_LE(report.makespan, most) << name;
+  }
+}
+
+TEST(Lookahead, ReliesOnNobodyWhereTheCellForbidsIt) {
+  const auto three = run_experiment("exp-6-1", 0), four = run_experiment("exp-6-2", 0);
+  expect_all_done(three);
+  expect_all_done(four);
+  EXPECT_GE(three.makespan, 40.10) << "the least that starts which rely on nobody allow; event takes as long";
+  EXPECT_NEAR(four.makespan, 38.50, 0.02) << "the bound of all groups of three; event takes 42.14 s";
+}
+
+TEST(Lookahead, GoesSlowerOnlyWhereThatIsNotLater) {
+  for (const char* name : {"exp-5-1", "exp-6-1", "exp-6-2"}) {
+    const auto report = run_experiment(name, 0, 0.3);
+    expect_all_done(report);
+    EXPECT_LE(report.makespan, run_experiment(name, 0).makespan + 1e-6) << name;
+  }
+}
+
+TEST(Lookahead, DecidesTheSameHoweverMuchWasPrepared) {
+  EXPECT_EQ(run_experiment("exp-6-2", 2, 1, false).makespan, run_experiment("exp-6-2", 2, 1, true).makespan);
 }
 
 TEST(Lookahead, IsNeverLaterThanEventAndTellsTheSameStoryTwice) {

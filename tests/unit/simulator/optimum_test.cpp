@@ -10,13 +10,15 @@
 namespace interlace::test {
 namespace {
 
-sim::Optimum optimum_of(const std::string& name, const std::function<void(model::Program&)>& change = {}, bool confirmed = false) {
+sim::Optimum optimum_of(const std::string& name, const std::function<void(model::Program&)>& change = {}, bool confirmed = false,
+                        double promise = 0) {
   const auto cell = deployed_cell(name);
   auto program = app::load_program(deployed(name + "/program.yaml"), cell.get());
   if (!program) throw std::runtime_error(to_string(program.error()));
   if (change) change(*program);
   sim::OptimumOptions options;
   options.confirmed = confirmed;
+  options.promise = promise;
   const auto found = sim::least_makespan(*cell, *program, options);
   if (!found) throw std::runtime_error(found.error());
   return *found;
@@ -42,6 +44,15 @@ TEST(Optimum, OfStartsThatRelyOnNobodyIsWhatThePlannerReaches) {
   EXPECT_NEAR(confirmed("exp-4-2"), 29.03, 0.02);
   EXPECT_NEAR(confirmed("exp-5-1"), 42.39, 0.02);
   EXPECT_NEAR(confirmed("exp-6-1"), 40.11, 0.04);
+}
+
+/// How long a promised departure must be relied on for the targets of strategy `lookahead`: 40.57 s in 5.1, 37.23 s in 6.1.
+TEST(Optimum, ComesDownAsDeparturesAreReliedOnForLonger) {
+  const auto promised = [](const std::string& name, double promise) { return optimum_of(name, {}, true, promise).makespan.value(); };
+  EXPECT_NEAR(promised("exp-5-1", 1), 41.40, 0.02);
+  EXPECT_NEAR(promised("exp-5-1", 2), 40.40, 0.02);
+  EXPECT_NEAR(promised("exp-5-1", 5), optimum_of("exp-5-1").makespan.value(), 0.02);
+  EXPECT_NEAR(promised("exp-6-1", 1), 37.14, 0.04);
 }
 
 TEST(Optimum, OfOneRobotIsLess) {
