@@ -1,5 +1,5 @@
 // How long it takes from an event to the decision about a start, in the core alone: rings where everybody is everybody's neighbour, and
-// rows where that must not depend on how many there are.
+// rows where that must not depend on how many there are. With `lookahead`, which looks at all that waits, in the ring of four.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -17,6 +17,7 @@ namespace interlace::bench {
 namespace {
 
 constexpr std::size_t kWaiting = 10;  // commands of each robot, all submitted at once
+constexpr const char* kUsual = "event";
 
 /// Only what decides about a start counts: not the reports in between that change nothing.
 bool decides(const core::Decisions& d) {
@@ -30,7 +31,7 @@ double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
-void decisions(benchmark::State& state, const std::shared_ptr<const model::Cell>& cell, int programs) {
+void decisions(benchmark::State& state, const std::shared_ptr<const model::Cell>& cell, int programs, const std::string& strategy) {
   std::vector<double> times;
   core::MapStatistics maps;
   std::size_t unserved = 0;
@@ -43,6 +44,7 @@ void decisions(benchmark::State& state, const std::shared_ptr<const model::Cell>
       if (!program) throw std::runtime_error{program.error()};
       sim::VirtualOptions options;
       options.prepare = true;
+      options.strategy = strategy;
       options.observe = false;
       options.check_period = 1;
       options.stopwatch = cpu_seconds;
@@ -74,9 +76,10 @@ void decisions(benchmark::State& state, const std::shared_ptr<const model::Cell>
 }
 
 /// About as many decisions for each cell.
-void add(const std::shared_ptr<const model::Cell>& cell, std::size_t robots) {
+void add(const std::shared_ptr<const model::Cell>& cell, std::size_t robots, const std::string& strategy = kUsual) {
   const int programs = static_cast<int>(std::max<std::size_t>(1, 24 / robots));
-  benchmark::RegisterBenchmark(("decision/" + cell->name).c_str(), [=](benchmark::State& s) { decisions(s, cell, programs); })
+  const std::string name = "decision/" + cell->name + (strategy == kUsual ? "" : " " + strategy);
+  benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& s) { decisions(s, cell, programs, strategy); })
       ->Unit(benchmark::kMillisecond)
       ->Iterations(1);
 }
@@ -86,6 +89,7 @@ void add(const std::shared_ptr<const model::Cell>& cell, std::size_t robots) {
 void register_decision_benchmarks() {
   for (const std::size_t n : {2, 3, 4, 6, 8, 12}) add(ring(n), n);
   for (const std::size_t n : {10, 20, 50, 100}) add(row(n), n);
+  add(ring(4), 4, "lookahead");
 }
 
 }  // namespace interlace::bench

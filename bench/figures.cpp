@@ -12,6 +12,7 @@ namespace {
 constexpr double kTimesFaster = 300;  // than brute force
 constexpr double kOfFour = 5e-3;      // [s] 95 of 100 decisions in a ring of four
 constexpr double kOfTwelve = 20e-3;   // [s] in a ring of twelve
+constexpr double kAhead = 25e-3;      // [s] in a ring of four with `lookahead`: its budget and 5 ms
 constexpr double kFlat = 1.5;         // between rows of 10 and of 100
 
 std::string milliseconds(double seconds) {
@@ -125,6 +126,7 @@ std::vector<Figure> figures_of(const Measurements& measured) {
     table.decisions(name, name == "ring-4" ? std::optional{kOfFour} : name == "ring-12" ? std::optional{kOfTwelve} : std::nullopt);
   }
   table.flat("row-10", "row-100");
+  table.decisions("ring-4 lookahead", kAhead);
   return std::move(table.figures);
 }
 

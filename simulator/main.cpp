@@ -13,6 +13,7 @@
 #include "common/app/config/program_file.hpp"
 #include "common/app/guarded_main.hpp"
 #include "planner/core/strategy.hpp"
+#include "simulator/optimum.hpp"
 #include "simulator/virtual_cell.hpp"
 
 using namespace interlace;
@@ -26,6 +27,8 @@ struct Arguments {
   double trace_period = 0.01;
   std::uint64_t seed = 1;
   bool json = false;
+  bool optimum = false;
+  std::optional<double> promise;  // [s]
 };
 
 std::optional<ExitCode> parse(int argc, char** argv, Arguments& a) {
@@ -41,6 +44,10 @@ std::optional<ExitCode> parse(int argc, char** argv, Arguments& a) {
   cli.add_option("--trace-period", a.trace_period, "seconds between rows of the trace")->check(CLI::Range(1e-4, 10.0));
   cli.add_option("--report", a.report, "write the report to this JSON file");
   cli.add_option("--seed", a.seed, "of the simulated controllers' latencies and speeds");
+  cli.add_flag("--optimum", a.optimum,
+               "work out the least possible time, waiting at stops and nothing else; exact for two and three robots, else a bound");
+  cli.add_option("--promise", a.promise,
+                 "with --optimum: a start may rely on a promised departure that follows within so many seconds; default: the cell file's");
   cli.add_flag("--json", a.json, "print the report as JSON instead of a summary");
   app::add_common(cli);
   return app::parse(cli, argc, argv);
@@ -106,6 +113,26 @@ ExitCode run(const Arguments& a) {
     return ExitCode::bad_input;
   }
 
+  std::optional<sim::Optimum> optimum, confirmed, promised;
+  if (a.optimum) {
+    const double promise = a.promise.value_or(cell->planning.promise);
+    for (auto* wanted_optimum : {&optimum, &confirmed, &promised}) {
+      sim::OptimumOptions options;
+      options.confirmed = wanted_optimum != &optimum;
+      options.promise = wanted_optimum == &promised ? promise : 0;
+      auto found = sim::least_makespan(*cell, *program, options);
+      if (!found) {
+        fmt::print(stderr, "{}\n", found.error());
+        return ExitCode::bad_input;
+      }
+      *wanted_optimum = std::move(*found);
+    }
+    if (!a.json) {
+      fmt::print("optimum: {}\n  where no start relies on one that is still to come: {}\n  or on one that is promised within {} s: {}\n",
+                 summary(*optimum), summary(*confirmed), promise, summary(*promised));
+      std::fflush(stdout);
+    }
+  }
   std::vector<app::RunReport> reports;
   for (const std::string& strategy : strategies) {
     sim::VirtualOptions options;
@@ -134,7 +161,15 @@ ExitCode run(const Arguments& a) {
     }
   }
   nlohmann::json json = nlohmann::json::array();
-  for (const auto& r : reports) json.push_back(to_json(r));
+  for (const auto& r : reports) {
+    json.push_back(to_json(r));
+    if (!optimum) continue;
+    const auto seconds = [](const sim::Optimum& o) { return o.makespan ? nlohmann::json(*o.makespan) : nlohmann::json(nullptr); };
+    json.back()["optimum_s"] = seconds(*optimum);
+    json.back()["confirmed_optimum_s"] = seconds(*confirmed);
+    json.back()["promised_optimum_s"] = seconds(*promised);
+    json.back()["optimum_exact"] = optimum->exact && confirmed->exact && promised->exact;
+  }
   if (a.json) std::cout << json.dump(2) << '\n';
   if (!a.report.empty() && !write_file(a.report, json.dump(2))) return ExitCode::fault;
   return judge(reports);

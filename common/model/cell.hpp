@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct TcpLimits {
   double acceleration = 0;                     ///< [m/s²]
   std::optional<double> angular_velocity;      ///< [rad/s]
   std::optional<double> angular_acceleration;  ///< [rad/s²]
+  double slowest = 1;                          ///< least part of its speed at which the strategy `lookahead` may let a linear move go
 };
 
 /// How far a controller may be from ideal. The planner widens its predictions by it; the simulated controller draws from it.
@@ -57,7 +59,9 @@ struct PlanningOptions {
   std::optional<double> lead;             ///< shortest time from a decision to a start [s]; default: the program's own
   std::optional<double> start_tolerance;  ///< latest start after the planned one, before the controller's own latency [s]; ditto
   double patience = 120;                  ///< a command whose turn came longer ago goes before all others, whatever their priority [s]
-  std::optional<Box> zone;                ///< of the strategy `zone`; default: made from what the robots can reach
+  double budget = 0.02;                   ///< of one decision of the strategy `lookahead` [s], counted in work, not measured
+  double promise = 2;       ///< a start of `lookahead` may be so long before a promised departure it relies on [s]; 0: only after
+  std::optional<Box> zone;  ///< of the strategy `zone`; default: made from what the robots can reach
 };
 
 /// Checked description of one cell: at least one robot, unique names, start postures reachable, inside limits and clear of each other

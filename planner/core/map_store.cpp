@@ -10,7 +10,10 @@ KeptMap build(SampledMotion& commanded, SampledMotion& moving, double margin) {
   KeptMap kept;
   kept.map = build_timing_map(commanded, moving, margin);
   kept.map.blocked.shrink_to_fit();
-  kept.forbidden = forbidden_shifts(kept.map, commanded.robot().controller.speed_error, moving.robot().controller.speed_error);
+  const double commanded_stretch = commanded.robot().controller.speed_error, moving_stretch = moving.robot().controller.speed_error;
+  kept.forbidden = forbidden_shifts(kept.map, commanded_stretch, moving_stretch);
+  kept.passing = forbidden_while_moving(kept.map, commanded_stretch, moving_stretch);
+  kept.at_end = times_at_end(kept.map, commanded_stretch);
   const auto& blocked = kept.map.blocked;
   const auto before = std::find_if(blocked.begin(), blocked.end(), [](const BlockedCell& c) { return c.t0 == -kNever; });
   if (before != blocked.end()) kept.blocked_before_start = static_cast<std::size_t>(before - blocked.begin());
@@ -18,17 +21,18 @@ KeptMap build(SampledMotion& commanded, SampledMotion& moving, double margin) {
 }
 
 std::size_t bytes_of(const KeptMap& kept) {
-  return sizeof(KeptMap) + kept.map.blocked.capacity() * sizeof(BlockedCell) + kept.forbidden.capacity() * sizeof(ForbiddenShift);
+  return sizeof(KeptMap) + kept.map.blocked.capacity() * sizeof(BlockedCell) +
+         (kept.forbidden.capacity() + kept.passing.capacity() + kept.at_end.capacity()) * sizeof(ForbiddenShift);
 }
 
 }  // namespace
 
-const KeptMap& MapStore::get(const SampledMotionPtr& commanded, const SampledMotionPtr& moving) {
+const std::shared_ptr<const KeptMap>& MapStore::share(const SampledMotionPtr& commanded, const SampledMotionPtr& moving) {
   const auto key = std::make_pair(commanded->id(), moving->id());
   ++uses_;
   if (const auto found = maps_.find(key); found != maps_.end()) {
     found->second.last_use = uses_;
-    return *found->second.map;
+    return found->second.map;
   }
   if (full()) make_room();
   if (on_build_) on_build_(commanded, moving);
@@ -39,7 +43,7 @@ const KeptMap& MapStore::get(const SampledMotionPtr& commanded, const SampledMot
   Kept kept{commanded, moving, std::move(map), 0, uses_};
   kept.bytes = bytes_of(*kept.map);
   bytes_ += kept.bytes;
-  return *maps_.emplace(key, std::move(kept)).first->second.map;
+  return maps_.emplace(key, std::move(kept)).first->second.map;
 }
 
 /// First those that nobody can ask for any more; if that is not enough, the half that was not used for longest.

@@ -16,6 +16,8 @@ struct KeptMap {
   TimingMap map;
   std::vector<ForbiddenShift> forbidden;            ///< united, widened by both robots' speed errors
   std::optional<std::size_t> blocked_before_start;  ///< a blocked cell in which the moving robot has not started yet
+  std::vector<ForbiddenShift> passing;              ///< as `forbidden`, of the cells in which the moving robot moves
+  std::vector<ForbiddenShift> at_end;               ///< times of the commanded robot at which it would meet the other at its end, united
 };
 
 /// What a store has done so far and holds now.
@@ -39,7 +41,10 @@ class MapStore {
       : margin_(margin), stopwatch_(std::move(stopwatch)), limits_(limits) {}
 
   /// The map of `commanded` against `moving`; valid until the next call.
-  const KeptMap& get(const SampledMotionPtr& commanded, const SampledMotionPtr& moving);
+  const KeptMap& get(const SampledMotionPtr& commanded, const SampledMotionPtr& moving) { return *share(commanded, moving); }
+
+  /// The same for as long as it is wanted.
+  const std::shared_ptr<const KeptMap>& share(const SampledMotionPtr& commanded, const SampledMotionPtr& moving);
 
   [[nodiscard]] bool holds(const SampledMotionPtr& commanded, const SampledMotionPtr& moving) const {
     return maps_.count({commanded->id(), moving->id()}) > 0;

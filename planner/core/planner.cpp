@@ -34,6 +34,7 @@ Planner::Planner(std::shared_ptr<const model::Cell> cell, PlannerOptions options
       neighbourhood_(*cell_),
       maps_(cell_->planning.margin, options_.stopwatch, map_limits(neighbourhood_)) {
   if (!strategy_) throw std::invalid_argument(fmt::format("unknown strategy \"{}\"", options_.strategy));
+  if (strategy_->service().ahead) ahead_.outlook = std::make_shared<Outlook>(*cell_, neighbourhood_);
   robots_.resize(cell_->robots.size());
   for (model::RobotIndex i = 0; i < robots_.size(); ++i) {
     const model::Robot& robot = cell_->robots[i];
@@ -58,6 +59,8 @@ void Planner::schedule(Instant now, Decisions& out) {
   send_due(now, out);
   if (strategy_->service().in_turn) {
     serve_in_turn(now, out);
+  } else if (ahead_.outlook) {
+    serve_ahead(now, out);
   } else {
     serve_whoever_can(now, out);
   }
@@ -67,6 +70,7 @@ void Planner::schedule(Instant now, Decisions& out) {
       publish(next->status, out);
   }
   send_due(now, out);
+  give_up_broken_promises(out);
 }
 
 /// Robots that stand and have a command: first whose command goes before others (goes_before), then who is longest ready.
@@ -207,7 +211,11 @@ void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment
   c.serial = ++r.last_serial;
   c.start_from = *a.start;
   c.start_until = *a.start + candidate.tolerance;
-  for (const model::RobotIndex other : a.departures) c.departures.emplace_back(other, robots_[other].last_committed());
+  for (const model::RobotIndex other : a.departures) {
+    const RobotRecord& o = robots_[other];
+    c.departures.emplace_back(other, o.last_committed());
+    c.on_promise = c.on_promise || c.start_from < (o.following ? *o.following : *o.committed).start_until + options_.confirm;
+  }
   status.state = CommandState::scheduled;
   status.reason = a.reason;
   status.start = c.start_from;
@@ -226,15 +234,20 @@ void Planner::commit_next(RobotRecord& r, const Candidate& candidate, Assessment
   changed(r);
 }
 
+Planner::Departures Planner::departure_of(model::RobotIndex robot, std::uint64_t serial, bool on_promise) const {
+  const RobotRecord& other = robots_[robot];
+  if (other.last_started >= serial || (on_promise && promises(other, serial))) return Departures::met;
+  const bool still_to_come =
+      (other.committed && other.committed->serial == serial) || (other.following && other.following->serial == serial);
+  return still_to_come ? Departures::open : Departures::broken;
+}
+
 Planner::Departures Planner::departures_of(const Commitment& c) const {
   Departures result = Departures::met;
   for (const auto& [robot, serial] : c.departures) {
-    const RobotRecord& other = robots_[robot];
-    if (other.last_started >= serial) continue;
-    const bool still_to_come =
-        (other.committed && other.committed->serial == serial) || (other.following && other.following->serial == serial);
-    if (!still_to_come) return Departures::broken;
-    result = Departures::open;
+    const Departures departure = departure_of(robot, serial, c.on_promise);
+    if (departure == Departures::broken) return departure;
+    if (departure == Departures::open) result = departure;
   }
   return result;
 }
@@ -244,7 +257,7 @@ void Planner::send_due(Instant now, Decisions& out) {
     if (!r.committed) continue;
     Commitment& c = *r.committed;
     if (c.phase == Commitment::Phase::dispatched && !c.accepted && now >= c.sent + options_.answer_timeout && now <= c.start_until) {
-      if (r.held) {  // unanswered: say again that it is taken back
+      if (r.held && !is_relied_on(r, r.committed)) {  // unanswered: say again that it is taken back
         c.sent = now;
         out.withdrawals.push_back({c.command.status.id, r.robot->name, c.command.attempts});
       } else {
@@ -257,7 +270,7 @@ void Planner::send_due(Instant now, Decisions& out) {
     const bool too_late = now > c.start_from;
     if (departures == Departures::broken || too_late || r.lost() || !r.ready) {
       put_back(r, Reason::none, {}, out);  // what its window was proven for no longer holds
-    } else if (now >= c.start_from - options_.lead && departures == Departures::met) {
+    } else if (departures == Departures::met && (now >= c.start_from - options_.lead || relying_on(r, c, false) != nullptr)) {
       ++c.command.attempts;
       c.phase = Commitment::Phase::dispatched;
       dispatch(r, now, out);
@@ -285,6 +298,8 @@ std::optional<Instant> Planner::next_deadline() const {
   std::optional<Instant> next;
   const auto consider = [&](Instant t) { next = next ? std::min(*next, t) : t; };
   if (!deadlines_.empty()) consider(std::get<Instant>(*deadlines_.begin()) + Duration{1});
+  if (ahead_.arrived) consider(Instant{});
+  if (ahead_.wake) consider(*ahead_.wake);
   for (const RobotRecord& r : robots_) {
     if (options_.posture_timeout && r.heard) consider(r.last_heard + *options_.posture_timeout + Duration{1});
     if (!r.committed) continue;

@@ -16,6 +16,7 @@
 #include "common/model/messages.hpp"
 #include "planner/core/escape.hpp"
 #include "planner/core/neighbourhood.hpp"
+#include "planner/core/outlook.hpp"
 #include "planner/core/robot_record.hpp"
 #include "planner/core/untangle.hpp"
 #include "planner/core/wait_graph.hpp"
@@ -51,7 +52,8 @@ struct Decisions {
 /// time they happened, decisions come out as values. `now` never goes backwards. Not thread-safe. A copy goes its own way from there, but
 /// in the same thread: copies share what has been computed of motions.
 /// Promise: a dispatch is sent only for a start that is clear of every motion in progress or promised, wherever in their windows those
-/// start, and also if one that has not been confirmed never starts.
+/// start, and also if one that has not been confirmed never starts. Strategy `lookahead` may rely on a departure before it is confirmed,
+/// for no longer than the cell's `planning.promise` and only where it is promised (planner_promises.cpp, docs/adr/0006-look-ahead.md).
 class Planner {
  public:
   /// Throws std::invalid_argument when the strategy is unknown. `cell` must have been checked (common/app/config).
@@ -106,6 +108,7 @@ class Planner {
   void rejudge_queue(RobotRecord& r, Decisions& out);
   void drop_escapes(RobotRecord& r, Decisions& out);
   bool cancel(RobotRecord& r, const model::CommandId& id, Decisions& out);
+  [[nodiscard]] std::string why_not_cancelled(const RobotRecord& r, const model::CommandStatus& status) const;
   void publish(const model::CommandStatus& status, Decisions& out);
 
   // Control: planner_control.cpp
@@ -125,6 +128,7 @@ class Planner {
 
   // Who goes first: planner_precedence.cpp
   [[nodiscard]] bool goes_before(const RobotRecord& a, const RobotRecord& b, Instant now) const;
+  [[nodiscard]] bool somebody_goes_before(Instant now) const;
   bool gives_way(RobotRecord& r, Instant now);
   [[nodiscard]] bool can_be_let_through(const RobotRecord& w) const;
   [[nodiscard]] bool kept_out_by(const RobotRecord& w, const Neighbour& moving, Instant now);
@@ -148,11 +152,13 @@ class Planner {
   [[nodiscard]] std::vector<Neighbour> neighbours_of(const RobotRecord& r, Instant now) const;
   [[nodiscard]] Candidate candidate_of(const RobotRecord& r, const SampledMotionPtr& motion) const;
   [[nodiscard]] Timing timing_at(Instant now) const { return {now + options_.lead, options_.confirm}; }
+  [[nodiscard]] Timing timing_ahead(Instant now) const;
   bool try_commit(RobotRecord& r, Instant now, Decisions& out);
   void commit_next(RobotRecord& r, const Candidate& candidate, Assessment a, Instant could_start, Decisions& out, std::string text = {});
   void send_due(Instant now, Decisions& out);
   enum class Departures { open, met, broken };
   [[nodiscard]] Departures departures_of(const Commitment& c) const;
+  [[nodiscard]] Departures departure_of(model::RobotIndex robot, std::uint64_t serial, bool on_promise) const;
   void dispatch(RobotRecord& r, Instant now, Decisions& out);
 
   // Deadlocks: planner_escapes.cpp
@@ -177,6 +183,24 @@ class Planner {
   bool go_on_clearing(Instant now, Decisions& out);
   bool send(const UntangleStep& step, Instant now, Decisions& out);
   void check_clearing();
+
+  // Looking ahead: planner_ahead.cpp
+  void serve_ahead(Instant now, Decisions& out);
+  void look_ahead(Instant now);
+  void search_ahead();
+  void look_from(Instant now);
+  [[nodiscard]] Instant free_at(const RobotRecord& r, Instant now) const;
+  [[nodiscard]] OutlookRobot outlook_robot(const RobotRecord& r, Instant now) const;
+  bool start_as_planned(const PlannedStart& planned, Instant now, Decisions& out);
+  [[nodiscard]] bool somebody_is_about_to_start(Instant now) const;
+
+  // Promises: planner_promises.cpp
+  [[nodiscard]] bool promises(const RobotRecord& r, std::uint64_t serial) const;
+  [[nodiscard]] const RobotRecord* relying_on(const RobotRecord& r, const Commitment& promised, bool under_way) const;
+  [[nodiscard]] bool is_relied_on(const RobotRecord& r, const std::optional<Commitment>& c) const;
+  void give_up_broken_promises(Decisions& out);
+  void let_others_go_first();
+  [[nodiscard]] std::optional<Instant> rehearsed_end(Instant now);
 
   std::shared_ptr<const model::Cell> cell_;
   std::shared_ptr<model::Bodies> bodies_;  // copies share it: motions refer to what is in it
@@ -203,6 +227,17 @@ class Planner {
     int plans = 0;                   // made so far
   };
   std::optional<Clearing> clearing_;
+  /// What has been found by looking ahead. Copies share what has been computed, not what was decided.
+  struct Ahead {
+    std::shared_ptr<Outlook> outlook;   // null: the strategy does not look ahead
+    std::optional<OutlookPlan> plan;    // that is followed; empty: whoever can start does
+    std::optional<Instant> event_ends;  // when all is done if whoever can start does, as rehearsed
+    std::uint64_t seen = 0;             // revision that the plan was made for
+    std::uint64_t look = 0;             // of the outlook, for it
+    std::optional<Instant> wake;        // when the next planned start is due
+    bool arrived = false;               // commands that nothing has been decided for yet
+  };
+  Ahead ahead_;
   std::optional<model::RobotIndex> deadlocked_;  // served in turn: for whom all others are held up
   bool escaping_ = false;                        // served in turn: escapes and what they serve are under way
 };

@@ -35,6 +35,9 @@ void Planner::publish(const CommandStatus& status, Decisions& out) {
     entry->second = status;
   }
   out.statuses.push_back(status);
+  const bool as_expected = status.state == CommandState::waiting || status.state == CommandState::scheduled ||
+                           status.state == CommandState::started || status.state == CommandState::completed;
+  if (!as_expected && !status.escape) ahead_.event_ends.reset();
   if (!model::is_final(status.state)) return;
   finished_.push_back(status.id);
   if (finished_.size() > options_.remembered) {
@@ -99,7 +102,11 @@ Decisions Planner::on(const model::CommandSubmitted& event, Instant now) {
   if (event.deadline) set_deadline(r, command, *event.deadline, now);
   publish(command.status, out);
   r.queue.push_back(std::move(command));
-  schedule(now, out);
+  if (ahead_.outlook) {
+    ahead_.arrived = true;  // others may come at the same time: advance() decides for all of them
+  } else {
+    schedule(now, out);
+  }
   return out;
 }
 
@@ -223,10 +230,12 @@ bool Planner::cancel(RobotRecord& r, const model::CommandId& id, Decisions& out)
     return true;
   }
   if (r.following && r.following->command.status.id == id) {
+    if (relying_on(r, *r.following, true) != nullptr) return false;
     put_following_back(r);
     return cancel(r, id, out);
   }
   if (!r.committed || r.committed->command.status.id != id || r.committed->phase == Commitment::Phase::started) return false;
+  if (relying_on(r, *r.committed, true) != nullptr) return false;
   if (r.committed->phase == Commitment::Phase::held) {
     const bool by_client = r.committed->command.origin == QueuedCommand::Origin::client;
     put_back(r, Reason::none, {}, out);
@@ -235,6 +244,17 @@ bool Planner::cancel(RobotRecord& r, const model::CommandId& id, Decisions& out)
   r.committed->cancel_requested = true;  // final once the proxy says it has not started
   out.withdrawals.push_back({id, r.robot->name, r.committed->command.attempts});
   return true;
+}
+
+/// Why a command that is not finished cannot be given up.
+std::string Planner::why_not_cancelled(const RobotRecord& r, const CommandStatus& status) const {
+  for (const auto* c : {&r.committed, &r.following}) {
+    if (!*c || (*c)->command.status.id != status.id) continue;
+    if (const RobotRecord* other = relying_on(r, **c, true))
+      return fmt::format("{} is under way and relies on {} leaving: it cannot be given up any more", other->robot->name.str(),
+                         r.robot->name.str());
+  }
+  return "it has started: a running motion cannot be taken back";
 }
 
 Decisions Planner::on(const model::CommandCancelled& event, Instant now) {
@@ -261,7 +281,7 @@ Decisions Planner::on(const model::CommandCancelled& event, Instant now) {
   }
   if (!cancel(robots_[*index], event.id, out)) {
     CommandStatus status = known->second;
-    if (!model::is_final(status.state)) status.text = "it has started: a running motion cannot be taken back";
+    if (!model::is_final(status.state)) status.text = why_not_cancelled(robots_[*index], status);
     out.statuses.push_back(status);
     return out;
   }
@@ -286,13 +306,14 @@ Decisions Planner::on(const model::StopRequested& event, Instant now) {
     return out;
   }
   RobotRecord& r = robots_[*index];
-  if (r.following) put_following_back(r);
+  // A departure that somebody under way relies on is not given up: the robot stops where that leads.
+  const bool relied_on = r.following && relying_on(r, *r.following, true) != nullptr;
+  if (r.following && !relied_on) put_following_back(r);
   std::size_t given_up = r.queue.size();
   drop_escapes(r, out);
   while (!r.queue.empty()) cancel(r, model::CommandId{r.queue.back().status.id}, out);
-  if (r.committed && r.committed->phase != Commitment::Phase::started) {
+  if (r.committed && r.committed->phase != Commitment::Phase::started && cancel(r, model::CommandId{r.committed->command.status.id}, out)) {
     ++given_up;
-    cancel(r, model::CommandId{r.committed->command.status.id}, out);
   }
   answer.state = CommandState::completed;
   answer.reason = Reason::on_request;

@@ -45,14 +45,16 @@ void Planner::scene_is_new() {
   for (RobotRecord& r : robots_) r.in_vain = {};
 }
 
-/// Takes back all that `r` has not begun. What the proxy was told already may begin before it hears of that, and is then finished.
+/// Takes back all that `r` has not begun. What the proxy was told already may begin before it hears of that, and is then finished. So is a
+/// departure that a robot under way relies on: that promise is kept first.
 void Planner::hold(RobotRecord& r, Decisions& out) {
   r.held = true;
   changed(r);
-  if (r.following) put_following_back(r);
-  if (r.committed && r.committed->phase == Commitment::Phase::held) {
+  if (r.following && !is_relied_on(r, r.following)) put_following_back(r);
+  const bool not_begun = r.committed && !is_relied_on(r, r.committed);
+  if (not_begun && r.committed->phase == Commitment::Phase::held) {
     put_back(r, Reason::held, held_text(r), out);
-  } else if (r.committed && r.committed->phase == Commitment::Phase::dispatched) {
+  } else if (not_begun && r.committed->phase == Commitment::Phase::dispatched) {
     out.withdrawals.push_back({r.committed->command.status.id, r.robot->name, r.committed->command.attempts});
   }
   r.blockers.clear();
@@ -180,8 +182,8 @@ Decisions Planner::on(const model::QueueReplaced& event, Instant now) {
     return out;
   }
   // What is decided but not told to anybody is part of the queue; what was told counts as being done.
-  if (r.following) put_following_back(r);
-  if (r.committed && r.committed->phase == Commitment::Phase::held) put_back(r, Reason::none, {}, out);
+  if (r.following && !is_relied_on(r, r.following)) put_following_back(r);
+  if (r.committed && r.committed->phase == Commitment::Phase::held && !is_relied_on(r, r.committed)) put_back(r, Reason::none, {}, out);
   std::deque<QueuedCommand> commands;
   for (const model::CommandSubmitted& c : event.commands) {
     QueuedCommand& command = commands.emplace_back();

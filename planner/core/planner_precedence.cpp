@@ -21,6 +21,18 @@ bool Planner::goes_before(const RobotRecord& a, const RobotRecord& b, Instant no
   return a_overdue ? a.ready_since < b.ready_since : a.priority() > b.priority();
 }
 
+/// Whether there is one whose turn it is and who goes before another.
+bool Planner::somebody_goes_before(Instant now) const {
+  std::vector<const RobotRecord*> waiting;
+  for (const RobotRecord& r : robots_) {
+    if (!r.committed && r.next()) waiting.push_back(&r);
+  }
+  return std::any_of(waiting.begin(), waiting.end(), [&](const RobotRecord* a) {
+    return now - a->ready_since > options_.patience ||
+           std::any_of(waiting.begin(), waiting.end(), [&](const RobotRecord* b) { return goes_before(*a, *b, now); });
+  });
+}
+
 /// Whether waiting for `w` is of use: what keeps it moves and will have arrived, or may be sent away. Where everything was tried in vain in
 /// this scene, others go on, and change it.
 bool Planner::can_be_let_through(const RobotRecord& w) const {

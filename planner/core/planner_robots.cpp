@@ -38,6 +38,14 @@ Instant earliest_end(const Commitment& c) {
   return c.start_from + model::from_seconds(motion.duration() * (1 - motion.robot().controller.speed_error));
 }
 
+/// It was slowed down for a start that it will not have.
+void at_full_speed(QueuedCommand& command) {
+  if (!command.full_speed) return;
+  command.request = command.full_speed->first;
+  command.motion = command.full_speed->second;
+  command.full_speed.reset();
+}
+
 void append(Decisions more, Decisions& out) {
   std::move(more.dispatches.begin(), more.dispatches.end(), std::back_inserter(out.dispatches));
   std::move(more.withdrawals.begin(), more.withdrawals.end(), std::back_inserter(out.withdrawals));
@@ -59,6 +67,7 @@ void Planner::stand_at(RobotRecord& r, const model::Joints& q, Instant now, Deci
 /// What was to follow waits again: it was decided for a place the robot may not come to.
 void Planner::put_following_back(RobotRecord& r) {
   QueuedCommand command = std::move(r.following->command);
+  at_full_speed(command);
   r.following.reset();
   changed(r);
   command.status.state = CommandState::queued;
@@ -73,6 +82,7 @@ void Planner::put_following_back(RobotRecord& r) {
 void Planner::put_back(RobotRecord& r, Reason why, const std::string& text, Decisions& out) {
   if (r.following) put_following_back(r);
   QueuedCommand command = std::move(r.committed->command);
+  at_full_speed(command);
   r.committed.reset();
   command.status.start.reset();
   command.status.end.reset();
@@ -174,6 +184,7 @@ Decisions Planner::on(const model::PostureReported& event, Instant now) {
 void Planner::begin(RobotRecord& r, const StartInterval& start, Decisions& out) {
   Commitment& c = *r.committed;
   c.phase = Commitment::Phase::started;
+  c.endangered = false;  // it is now, and people have not been told
   c.start_from = start.from;
   c.start_until = start.until;
   r.last_started = c.serial;
@@ -232,7 +243,10 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
   const Duration uncertainty = model::from_seconds(event.uncertainty);
 
   switch (event.state) {
-    case ExecutionState::accepted: c.accepted = true; return out;
+    case ExecutionState::accepted:
+      c.accepted = true;
+      if (relying_on(r, c, false) != nullptr) schedule(now, out);
+      return out;
     case ExecutionState::started:
       if (c.start_told) return out;
       c.start_told = true;

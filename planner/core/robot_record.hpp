@@ -19,8 +19,9 @@ struct QueuedCommand {
   model::MotionRequest request;
   int priority = 0;
   SampledMotionPtr motion;
-  model::ToolSteps tools;      ///< what its robot holds around it
-  std::uint32_t attempts = 0;  ///< plans sent to the proxy so far
+  std::optional<std::pair<model::MotionRequest, SampledMotionPtr>> full_speed;  ///< what it was before it was slowed down
+  model::ToolSteps tools;                                                       ///< what its robot holds around it
+  std::uint32_t attempts = 0;                                                   ///< plans sent to the proxy so far
 };
 
 /// A command whose start is decided: a fact for everyone after.
@@ -35,7 +36,9 @@ struct Commitment {
   std::uint64_t serial = 0;                                             ///< tells commitments of one robot apart
   Instant start_from{};                                                 ///< planned start, or the earliest it can have been
   Instant start_until{};                                                ///< latest start
-  std::vector<std::pair<model::RobotIndex, std::uint64_t>> departures;  ///< commitments that must have started before this is sent
+  std::vector<std::pair<model::RobotIndex, std::uint64_t>> departures;  ///< commitments that must have started before this is sent,
+  bool on_promise = false;                                              ///< or be promised
+  bool endangered = false;                                              ///< one of them will not start as promised, and that was said
   bool cancel_requested = false;
   bool accepted = false;    ///< the proxy has confirmed the dispatch
   bool start_told = false;  ///< the proxy has reported the start; a posture alone shows only that it has begun
@@ -76,7 +79,7 @@ struct RobotRecord {
   std::uint64_t clearing_given_up = 0;           ///< likewise, clearing all space around it
   std::vector<model::EscapeRefusal> refused;     ///< what the last search for room tried in vain
   std::optional<Commitment> committed;           ///< what it does now or next
-  std::optional<Commitment> following;           ///< what it does after that; only after an escape of its own, decided together with it
+  std::optional<Commitment> following;           ///< what it does after that: decided together with an escape of its own, or promised
   std::uint64_t last_serial = 0;
   std::uint64_t last_started = 0;  ///< serial of the newest commitment that began
   Instant ready_since{};           ///< since when the head of the queue could have gone

@@ -18,12 +18,7 @@ ForbiddenShift forbidden_shift(const BlockedCell& c, double commanded_stretch, d
   return {c.t0 * (1 - moving_stretch) - c.tau1 * (1 + commanded_stretch), c.t1 * (1 + moving_stretch) - c.tau0 * (1 - commanded_stretch)};
 }
 
-}  // namespace
-
-std::vector<ForbiddenShift> forbidden_shifts(const TimingMap& map, double commanded_stretch, double moving_stretch) {
-  std::vector<ForbiddenShift> all;
-  all.reserve(map.blocked.size());
-  for (const BlockedCell& c : map.blocked) all.push_back(forbidden_shift(c, commanded_stretch, moving_stretch));
+std::vector<ForbiddenShift> united(std::vector<ForbiddenShift> all) {
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<ForbiddenShift> united;
   for (const ForbiddenShift& next : all) {
@@ -34,6 +29,31 @@ std::vector<ForbiddenShift> forbidden_shifts(const TimingMap& map, double comman
     }
   }
   return united;
+}
+
+}  // namespace
+
+std::vector<ForbiddenShift> forbidden_shifts(const TimingMap& map, double commanded_stretch, double moving_stretch) {
+  std::vector<ForbiddenShift> all;
+  all.reserve(map.blocked.size());
+  for (const BlockedCell& c : map.blocked) all.push_back(forbidden_shift(c, commanded_stretch, moving_stretch));
+  return united(std::move(all));
+}
+
+std::vector<ForbiddenShift> forbidden_while_moving(const TimingMap& map, double commanded_stretch, double moving_stretch) {
+  std::vector<ForbiddenShift> all;
+  for (const BlockedCell& c : map.blocked) {
+    if (c.t0 != -kNever && c.t1 != kNever) all.push_back(forbidden_shift(c, commanded_stretch, moving_stretch));
+  }
+  return united(std::move(all));
+}
+
+std::vector<ForbiddenShift> times_at_end(const TimingMap& map, double commanded_stretch) {
+  std::vector<ForbiddenShift> all;
+  for (const BlockedCell& c : map.blocked) {
+    if (c.t1 == kNever) all.push_back({c.tau0 * (1 - commanded_stretch), c.tau1 * (1 + commanded_stretch)});
+  }
+  return united(std::move(all));
 }
 
 StartInterval forbidden_start(const ForbiddenShift& shift, const StartUncertainty& u) {

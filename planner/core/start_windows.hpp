@@ -31,6 +31,12 @@ struct ForbiddenShift {
 /// by the relative errors of both durations.
 [[nodiscard]] std::vector<ForbiddenShift> forbidden_shifts(const TimingMap& map, double commanded_stretch, double moving_stretch);
 
+/// The same of the cells in which the moving robot moves: not of those where it stands before or after.
+[[nodiscard]] std::vector<ForbiddenShift> forbidden_while_moving(const TimingMap& map, double commanded_stretch, double moving_stretch);
+
+/// Times of the commanded robot, from its start on, at which it would meet the moving one standing at its end, in order and disjoint.
+[[nodiscard]] std::vector<ForbiddenShift> times_at_end(const TimingMap& map, double commanded_stretch);
+
 /// When the moving robot of a map starts, and how far both robots may be from their predictions.
 struct StartUncertainty {
   Instant moving_from{}, moving_until{};  ///< its start lies in between

@@ -40,17 +40,34 @@ class Event : public Strategy {
     Assessment a;
     std::vector<StartInterval> all;
     bool lost = false;
-    for (const Neighbour& n : neighbours) {
+    std::vector<std::pair<model::RobotIndex, Instant>> stops;
+    for (std::size_t i = 0; i < neighbours.size(); ++i) {
+      const Neighbour& n = neighbours[i];
       lost = lost || n.lost;
       bool for_good = false;
-      for (const StartInterval& f : forbidden(candidate, n, timing, maps, a)) {
-        all.push_back(f);
-        for_good = for_good || f.until == model::kForever;
+      const auto add = [&](const std::vector<StartInterval>& forbidden) {
+        for (const StartInterval& f : forbidden) {
+          all.push_back(f);
+          for_good = for_good || f.until == model::kForever;
+        }
+      };
+      if (timing.promise && i + 1 < neighbours.size() && stops_between(n, neighbours[i + 1])) {
+        const Neighbour& next = neighbours[++i];
+        const Stop stop{n.start_from, n.start_until, next.start_from, next.start_until};
+        const auto first_map = maps.share(candidate.motion, n.motion);
+        const auto f = forbidden_by_stop(candidate, *n.motion, stop, *timing.promise, *first_map, maps.get(candidate.motion, next.motion));
+        add(f.starts);
+        stops.emplace_back(n.robot, f.relies_from);
+      } else {
+        add(forbidden(candidate, n, timing, maps, a));
       }
       if (for_good) a.blockers.push_back(n.robot);
     }
     a.windows = complement(united(std::move(all)), timing.earliest);
     if (!a.windows.empty()) a.start = a.windows.front().from;
+    for (const auto& [robot, relies_from] : stops) {
+      if (a.start && *a.start > relies_from) a.departures.push_back(robot);
+    }
     if (!a.start) {
       a.reason = lost ? model::Reason::robot_unknown : model::Reason::blocked;
     } else if (*a.start > timing.earliest) {
@@ -61,6 +78,10 @@ class Event : public Strategy {
   }
 
  private:
+  static bool stops_between(const Neighbour& n, const Neighbour& next) {
+    return n.robot == next.robot && n.started && !n.lost && !n.overdue && !next.overdue;
+  }
+
   static std::vector<StartInterval> forbidden(const Candidate& candidate, const Neighbour& n, const Timing& timing, MapStore& maps,
                                               Assessment& a) {
     if (!n.lost) return forbidden_by(candidate, n, timing, maps.get(candidate.motion, n.motion), a.departures);
@@ -82,6 +103,17 @@ class Event : public Strategy {
       const auto by_cell = forbidden_by_map(candidate, n, timing, map, known);
       if (auto conflict = explain_conflict(candidate, n, map, by_cell, span)) a.conflicts.push_back(std::move(*conflict));
     }
+  }
+};
+
+/// Starts like `event`, in the order of a plan for all that waits.
+class Lookahead final : public Event {
+ public:
+  [[nodiscard]] std::string_view name() const override { return "lookahead"; }
+  [[nodiscard]] Service service() const override {
+    Service s = Event::service();
+    s.ahead = true;
+    return s;
   }
 };
 
@@ -119,7 +151,8 @@ bool may_stay(const Neighbour& n) {
 }
 
 StartInterval until_it_has_left(const Neighbour& n, const Timing& timing) {
-  return {model::kEarliest, n.overdue ? model::kForever : n.start_until + timing.confirm};
+  if (n.overdue) return {model::kEarliest, model::kForever};
+  return {model::kEarliest, timing.promise ? n.start_until - *timing.promise : n.start_until + timing.confirm};
 }
 
 }  // namespace
@@ -137,6 +170,30 @@ std::vector<StartInterval> forbidden_by(const Candidate& candidate, const Neighb
   return forbidden;
 }
 
+ForbiddenByStop forbidden_by_stop(const Candidate& commanded, const SampledMotion& first, const Stop& stop, Duration promise,
+                                  const KeptMap& first_map, const KeptMap& next_map) {
+  ForbiddenByStop result;
+  StartUncertainty u;
+  u.commanded_tolerance = commanded.tolerance;
+  u.moving_from = stop.moving_from;
+  u.moving_until = stop.moving_until;
+  for (const ForbiddenShift& shift : first_map.passing) result.starts.push_back(forbidden_start(shift, u));
+  const double arrival = first.motion().duration() * (1 - first.robot().controller.speed_error);
+  for (const ForbiddenShift& there : first_map.at_end) {
+    const Instant from = forbidden_start({arrival - there.last, 0}, u).from;
+    result.starts.push_back({from, stop.leaves_until - model::from_seconds(there.first) + Duration{1}});
+    result.relies_from = std::min(result.relies_from, from);
+  }
+  if (result.relies_from < stop.leaves_until - promise) result.starts.push_back({result.relies_from, stop.leaves_until - promise});
+  u.moving_from = stop.leaves_from;
+  u.moving_until = stop.leaves_until;
+  for (const ForbiddenShift& shift : next_map.passing) result.starts.push_back(forbidden_start(shift, u));
+  const double next_arrival = next_map.map.moving_duration * (1 - first.robot().controller.speed_error);
+  for (const ForbiddenShift& there : next_map.at_end)
+    result.starts.push_back({forbidden_start({next_arrival - there.last, 0}, u).from, model::kForever});
+  return result;
+}
+
 std::vector<ForbiddenStart> forbidden_by_map(const Candidate& candidate, const Neighbour& n, const Timing& timing, const TimingMap& map,
                                              std::vector<model::RobotIndex>& departures) {
   auto forbidden = forbidden_starts(map, uncertainty_of(candidate, n));
@@ -150,7 +207,7 @@ std::vector<ForbiddenStart> forbidden_by_map(const Candidate& candidate, const N
 }
 
 const std::vector<std::string_view>& strategy_names() {
-  static const std::vector<std::string_view> names{"direct", "zone", "eef-map", "acm", "event"};
+  static const std::vector<std::string_view> names{"direct", "zone", "eef-map", "acm", "event", "lookahead"};
   return names;
 }
 
@@ -163,6 +220,7 @@ std::unique_ptr<Strategy> make_strategy(std::string_view name, const model::Cell
   if (name == "direct") return std::make_unique<Direct>();
   if (name == "acm") return std::make_unique<Acm>();
   if (name == "event") return std::make_unique<Event>();
+  if (name == "lookahead") return std::make_unique<Lookahead>();
   if (name == "zone") return std::make_unique<Zone>(cell);
   if (name == "eef-map") return std::make_unique<EefMap>(cell);
   return nullptr;

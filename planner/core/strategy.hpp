@@ -63,6 +63,7 @@ enum class Evidence { no, yes };
 struct Timing {
   Instant earliest{};  ///< no start before: now + lead
   Duration confirm{};  ///< from a neighbour's latest start until the planner has surely heard of it and can act on it
+  std::optional<Duration> promise = std::nullopt;  ///< a start may be so long before a departure it relies on; empty: only after it
 };
 
 /// What a strategy does beyond choosing starts.
@@ -70,6 +71,7 @@ struct Service {
   bool in_turn = false;  ///< robots are served in turn 1 … n, one commanded robot at a time; else whoever can start does
   bool escapes = false;  ///< deadlocks are resolved by escapes
   bool maps = false;     ///< it asks for the maps of motions as they are, so that they may be built before
+  bool ahead = false;    ///< commands that wait are planned together (planner/core/outlook.hpp)
   EscapeRules rules;     ///< which
 };
 
@@ -93,6 +95,23 @@ class Strategy {
 /// both starts, and until a neighbour whose departure clears the way is known to have left; such a one goes to `departures`. United.
 [[nodiscard]] std::vector<StartInterval> forbidden_by(const Candidate& candidate, const Neighbour& neighbour, const Timing& timing,
                                                       const KeptMap& kept, std::vector<model::RobotIndex>& departures);
+
+/// A neighbour's stop between a motion that it carries out and the next, which it is committed to as well.
+struct Stop {
+  Instant moving_from{}, moving_until{};  ///< its start of the first lies in between
+  Instant leaves_from{}, leaves_until{};  ///< that of the next
+};
+
+/// Starts forbidden around a stop. Those after `relies_from` would meet the neighbour if it stayed there.
+struct ForbiddenByStop {
+  std::vector<StartInterval> starts;
+  Instant relies_from = model::kForever;
+};
+
+/// Starts of `commanded` that a neighbour forbids by the maps of two motions that follow each other, when it leaves the stop between them
+/// as it promises: where it would be met there, not sooner than `promise` before it leaves. Source: docs/adr/0006-look-ahead.md.
+[[nodiscard]] ForbiddenByStop forbidden_by_stop(const Candidate& commanded, const SampledMotion& first, const Stop& stop, Duration promise,
+                                                const KeptMap& first_map, const KeptMap& next_map);
 
 /// The same from any map, one interval for each of its cells: the evidence.
 [[nodiscard]] std::vector<ForbiddenStart> forbidden_by_map(const Candidate& candidate, const Neighbour& neighbour, const Timing& timing,

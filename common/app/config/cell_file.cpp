@@ -21,6 +21,9 @@ constexpr double kLongestPatience = 1e6;  // [s]
 constexpr double kLongestWait = 60;       // [s] of latency, lead and tolerance: beyond it a number is a mistake
 constexpr double kLargestSpeedError = 0.5;
 constexpr double kFinestResolution = 0.0005;  // [s] not included; finer maps cost much and tell nothing
+constexpr double kSlowest = 0.1;              // of its speed: slower than that a robot had better wait
+constexpr double kLargestBudget = 10;         // [s] of one decision
+constexpr double kLongestPromise = 10;        // [s] relied on before a departure
 constexpr double kCoarsestResolution = 1;     // [s]
 
 /// Models by name; without a value where the model is there but wrong, so that its robots are not blamed for it.
@@ -51,8 +54,11 @@ std::optional<double> optional_number(const Mapping& mapping, const std::string&
 
 model::TcpLimits read_tcp(const Field& field, const Units& units) {
   model::TcpLimits limits;
-  const auto mapping = field.mapping({"velocity", "acceleration", "angular_velocity", "angular_acceleration"});
+  const auto mapping = field.mapping({"velocity", "acceleration", "angular_velocity", "angular_acceleration", "slowest"});
   if (!mapping) return limits;
+  Quantity part = ratio(1);
+  part.least = kSlowest;
+  limits.slowest = number_or(*mapping, "slowest", part, limits.slowest);
   if (const auto velocity = mapping->require("velocity")) limits.velocity = velocity->number(speed(units)).value_or(0);
   if (const auto value = mapping->require("acceleration")) limits.acceleration = value->number(acceleration(units)).value_or(0);
   limits.angular_velocity = optional_number(*mapping, "angular_velocity", angular_speed(units));
@@ -100,7 +106,8 @@ std::optional<model::Box> read_box(const Field& field, const Units& units) {
 
 model::PlanningOptions read_planning(const Field& field, const Units& units) {
   model::PlanningOptions options;
-  const auto mapping = field.mapping({"resolution", "margin", "strategy", "escapes", "lead", "start_tolerance", "patience", "zone"});
+  const auto mapping =
+      field.mapping({"resolution", "margin", "strategy", "escapes", "lead", "start_tolerance", "patience", "zone", "budget", "promise"});
   if (!mapping) return options;
   options.margin = number_or(*mapping, "margin", length(units), options.margin);
   options.lead = optional_number(*mapping, "lead", seconds(kLongestWait));
@@ -116,6 +123,8 @@ model::PlanningOptions read_planning(const Field& field, const Units& units) {
     if (index) options.strategy = strategy_names()[*index];
   }
   if (const auto escapes = mapping->find("escapes")) options.escapes = escapes->one_of({"true", "false"}).value_or(0) == 0;
+  options.budget = number_or(*mapping, "budget", seconds(kLargestBudget), options.budget);
+  options.promise = number_or(*mapping, "promise", seconds(kLongestPromise), options.promise);
   if (const auto zone = mapping->find("zone")) options.zone = read_box(*zone, units);
   return options;
 }
@@ -208,7 +217,7 @@ model::Cell read_cell(const YAML::Node& document, const std::string& file_name, 
 }  // namespace
 
 const std::vector<std::string>& strategy_names() {
-  static const std::vector<std::string> names{"direct", "zone", "eef-map", "acm", "event"};
+  static const std::vector<std::string> names{"direct", "zone", "eef-map", "acm", "event", "lookahead"};
   return names;
 }
 

@@ -79,6 +79,7 @@ void write(const model::Robot& robot, Canonical& out) {
   out.number(robot.tcp.acceleration);
   out.maybe(robot.tcp.angular_velocity);
   out.maybe(robot.tcp.angular_acceleration);
+  out.number(robot.tcp.slowest);
   out.number(robot.controller.start_latency);
   out.number(robot.controller.start_jitter);
   out.number(robot.controller.speed_error);
@@ -147,6 +148,8 @@ std::uint64_t fingerprint(const model::Cell& cell) {
   out.maybe(cell.planning.lead);
   out.maybe(cell.planning.start_tolerance);
   out.number(cell.planning.patience);
+  out.number(cell.planning.budget);
+  out.number(cell.planning.promise);
   out.count(cell.planning.zone ? 1 : 0);
   if (cell.planning.zone) {
     out.numbers(cell.planning.zone->min);

@@ -178,6 +178,8 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"ResolutionCoarse", "resolution: 0.02", "resolution: 1.01", 48, "planning.resolution", "\"1.01\"", "expected at most 1 s"},
         Broken{"MarginNegative", "margin: 5", "margin: -5", 49, "planning.margin", "\"-5\"", "expected a number >= 0 (mm)"},
         Broken{"UnknownStrategy", "strategy: direct", "strategy: evnt", 50, "planning.strategy", "\"evnt\"", "did you mean \"event\"?"},
+        Broken{"BudgetNegative", "strategy: direct", "strategy: direct\n  lookahead_budget: -1", 51, "planning.lookahead_budget", "\"-1\"",
+               "expected a whole number from 0 to 1000000000"},
         Broken{"LeadNegative", "lead: 0.05", "lead: -0.05", 51, "planning.lead", "\"-0.05\"", "expected a number >= 0 (s)"},
         Broken{"ToleranceWord", "start_tolerance: 0.03", "start_tolerance: little", 52, "planning.start_tolerance", "\"little\"",
                "expected a number >= 0 (s)"},

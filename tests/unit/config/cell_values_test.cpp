@@ -93,6 +93,15 @@ robots:
   EXPECT_FALSE(cell.planning.lead);
 }
 
+TEST(CellValues, EveryStrategyAndItsBudget) {
+  for (const std::string name : {"direct", "zone", "eef-map", "acm", "event", "lookahead"}) {
+    const auto cell = accepted(replaced(kCell, "strategy: direct", "strategy: " + name + "\n  budget: 0.5\n  promise: 1.5"));
+    EXPECT_EQ(cell.planning.strategy, name);
+    EXPECT_EQ(cell.planning.budget, 0.5);
+    EXPECT_EQ(cell.planning.promise, 1.5);
+  }
+}
+
 TEST(CellValues, StartPoseIsReachedElbowUp) {
   const auto cell = accepted(kCell);
   const auto& r2 = cell.robots.at(1);

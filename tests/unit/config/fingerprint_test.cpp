@@ -77,6 +77,8 @@ TEST(Fingerprint, EveryChangeOfAValueChangesIt) {
                                                                  {"resolution: 0.02", "resolution: 0.01"},
                                                                  {"margin: 5", "margin: 6"},
                                                                  {"strategy: direct", "strategy: event"},
+                                                                 {"strategy: direct", "strategy: direct\n  budget: 0.5"},
+                                                                 {"strategy: direct", "strategy: direct\n  promise: 0.5"},
                                                                  {"escapes: false", "escapes: true"},
                                                                  {"lead: 0.05", "lead: 0.06"},
                                                                  {"  start_tolerance: 0.03\n", ""},

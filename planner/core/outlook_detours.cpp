@@ -1,0 +1,104 @@
+// Ways out for robots that stand where others have to pass.
+#include "planner/core/outlook.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "planner/core/escape_goal.hpp"
+#include "planner/core/outlook_work.hpp"
+
+namespace interlace::core {
+
+using model::EscapeWay;
+using model::RobotIndex;
+
+namespace {
+
+constexpr double kBeyond = 1e-3;     // [m] a detour goes on after the last place that is in the way
+constexpr std::size_t kDetours = 3;  // of one robot for one command
+
+/// Local time from which on a robot that carries out the moving motion of `map` could stop and be clear, the earliest.
+std::optional<double> first_clear(const TimingMap& map) {
+  std::vector<std::pair<double, double>> blocked;
+  for (const BlockedCell& c : map.blocked) blocked.emplace_back(c.t0, c.t1);
+  std::sort(blocked.begin(), blocked.end());
+  double clear = 0;
+  for (const auto& [from, until] : blocked) {
+    if (from > clear) break;
+    clear = std::max(clear, until);
+  }
+  return clear > map.moving_duration ? std::nullopt : std::optional{clear};
+}
+
+}  // namespace
+
+/// Back where it came from, and home.
+const std::vector<Outlook::Way>& Outlook::ways_known(RobotIndex robot, Place& place) {
+  auto& ways = place.posture->known;
+  if (ways) return *ways;
+  ways.emplace();
+  const auto body = model::MotionBodies::unchanged(*place.posture->body);
+  const auto add = [&](EscapeWay way, const model::MotionRequest& request) {
+    auto motion = admitted(robot, body, place.posture->q, request);
+    if (motion && motion->motion().duration() > 0) ways->push_back({way, request, std::move(motion)});
+  };
+  const model::Robot& r = cell_.robots[robot];
+  if (place.back) add(EscapeWay::retreat, *place.back);
+  model::MotionRequest home;
+  home.target = model::LinearTarget{r.X_WB * model::tcp_pose(r.model, r.home)};
+  add(EscapeWay::home, home);
+  if (r.model.joints.velocity && r.model.joints.acceleration) {
+    home.target = model::JointTarget{r.home};
+    add(EscapeWay::home, home);
+  }
+  return *ways;
+}
+
+/// To the border of the workspace: it takes much longer to find out how far that is.
+const std::vector<Outlook::Way>& Outlook::ways_sought(RobotIndex robot, Place& place) {
+  auto& ways = place.posture->sought;
+  if (ways) return *ways;
+  ways.emplace();
+  const std::array<std::pair<EscapeWay, Vector3>, 6> directions{{{EscapeWay::plus_x, Vector3::UnitX()},
+                                                                 {EscapeWay::minus_x, -Vector3::UnitX()},
+                                                                 {EscapeWay::plus_y, Vector3::UnitY()},
+                                                                 {EscapeWay::minus_y, -Vector3::UnitY()},
+                                                                 {EscapeWay::plus_z, Vector3::UnitZ()},
+                                                                 {EscapeWay::minus_z, -Vector3::UnitZ()}}};
+  for (const auto& [way, unit] : directions) {
+    work_ += kReachWork;
+    auto full = to_reachable_goal(cell_, robot, *place.posture->body, place.posture->q, unit);
+    if (full.motion) ways->push_back({way, full.request, std::move(full.motion)});
+  }
+  return *ways;
+}
+
+/// Ways for `robot` from where it stands to the first place clear of all that `served` sweeps, the shortest first.
+const std::vector<Detour>& Outlook::detours_of(RobotIndex robot, Place& place, const SampledMotionPtr& served) {
+  auto [entry, fresh] = place.posture->detours.try_emplace(served->id());
+  if (!fresh) return entry->second;
+  std::vector<Detour>& detours = entry->second;
+  const auto add = [&](const std::vector<Way>& ways) {
+    for (const Way& way : ways) {
+      const auto clear = first_clear(map_of(served, way.full).map);
+      if (!clear) continue;
+      const model::Motion& full = way.full->motion();
+      const double whole = full.length(full.duration());
+      const double length = full.length(*clear) + kBeyond;
+      Detour d{way.way, way.request, way.full};
+      if (full.is_linear() && length < whole - kBeyond) {
+        d.request = shortened(full, length);
+        d.motion = admitted(robot, model::MotionBodies::unchanged(*place.posture->body), place.posture->q, d.request);
+      }
+      if (d.motion) detours.push_back(std::move(d));
+    }
+  };
+  add(ways_known(robot, place));
+  if (detours.empty()) add(ways_sought(robot, place));
+  std::stable_sort(detours.begin(), detours.end(),
+                   [](const Detour& a, const Detour& b) { return duration_of(a.motion) < duration_of(b.motion); });
+  if (detours.size() > kDetours) detours.resize(kDetours);
+  return detours;
+}
+
+}  // namespace interlace::core

@@ -1,0 +1,266 @@
+// The search: beams over the order in which robots start.
+#include "planner/core/outlook.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "planner/core/outlook_work.hpp"
+
+namespace interlace::core {
+
+using model::RobotIndex;
+
+namespace {
+
+constexpr double kSameTime = 1e-6;    // [s]
+constexpr std::size_t kSameKept = 8;  // nodes of a beam in which all robots are at the same places
+
+}  // namespace
+
+bool Outlook::complete(std::size_t node) const {
+  for (RobotIndex i = 0; i < robots_.size(); ++i) {
+    if (state(node, i).place->next) return false;
+  }
+  return true;
+}
+
+/// `motion` must stay where it is.
+std::size_t Outlook::add(std::size_t parent, const Action& action, const SampledMotionPtr& motion, Place* to) {
+  const std::size_t n = robots_.size();
+  const std::size_t index = nodes_.size();
+  work_ += kNodeWork;
+  Node node;
+  node.parent = parent;
+  node.last = std::max(nodes_[parent].last, action.start);
+  const Instant end = action.start + robots_[action.robot].tolerance + duration_of(motion);
+  node.end = std::max(nodes_[parent].end, end);
+  node.flow = nodes_[parent].flow;
+  node.detours = nodes_[parent].detours;
+  if (action.detour != nullptr) {
+    ++node.detours;
+  } else {
+    node.flow += end - timing_.earliest;
+  }
+  states_.resize((index + 1) * n);
+  std::copy_n(states_.begin() + static_cast<std::ptrdiff_t>(parent * n), n, states_.begin() + static_cast<std::ptrdiff_t>(index * n));
+  RobotState& s = states_[index * n + action.robot];
+  s.before = s.moving;
+  s.before_start = s.start;
+  s.moving = &motion;
+  s.start = action.start;
+  s.free = end + lead_;
+  s.place = to;
+  node.action = action;
+  nodes_.push_back(node);
+  return index;
+}
+
+/// Everything that can start next: commands, and where somebody is stuck, detours of those in his way.
+void Outlook::expand(std::size_t parent, std::size_t most_detours, std::vector<std::size_t>& commands, std::vector<std::size_t>& detours) {
+  const auto n = static_cast<RobotIndex>(robots_.size());
+  enum class Will : std::uint8_t { idle, go, wait };
+  std::vector<Will> will(n, Will::idle);
+  for (RobotIndex i = 0; i < n; ++i) {
+    const RobotState s = state(parent, i);
+    if (!s.place->next) continue;
+    const auto start = start_of(parent, i, s.place->next);
+    will[i] = start ? Will::go : Will::wait;
+    if (!start) continue;
+    if (Place* to = after_command(i, *s.place)) commands.push_back(add(parent, {i, nullptr, i, *start}, s.place->next, to));
+  }
+  if (nodes_[parent].detours >= most_detours) return;
+  // Who waits for those that will go is not stuck.
+  const auto blocked_by = [&](RobotIndex i, RobotIndex j) { return blocks_for_good(parent, j, i, state(parent, i).place->next); };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (RobotIndex i = 0; i < n; ++i) {
+      if (will[i] != Will::wait) continue;
+      const auto& around = neighbourhood_.of(i);
+      const bool served = std::all_of(around.begin(), around.end(), [&](RobotIndex j) { return will[j] == Will::go || !blocked_by(i, j); });
+      if (!served) continue;
+      will[i] = Will::go;
+      changed = true;
+    }
+  }
+  for (RobotIndex i = 0; i < n; ++i) {
+    if (will[i] != Will::wait) continue;
+    const SampledMotionPtr& waiting = state(parent, i).place->next;
+    for (const RobotIndex j : neighbourhood_.of(i)) {
+      if (will[j] == Will::go || !blocked_by(i, j)) continue;
+      const RobotState s = state(parent, j);
+      if (s.place->aside || robots_[j].seen.back().lost) continue;
+      for (const Detour& d : detours_of(j, *s.place, waiting)) {
+        if (work_ > budget_) return;
+        const auto start = earliest(parent, j, d.motion, std::max(nodes_[parent].last, s.free));
+        if (!start) continue;
+        const Forbidden& after = forbidden(i, waiting, j, d.motion);
+        if (!after.empty() && after.back().until == model::kForever) continue;
+        if (Place* to = after_detour(j, *s.place, d)) detours.push_back(add(parent, {j, &d, i, *start}, d.motion, to));
+      }
+    }
+  }
+}
+
+OutlookPlan Outlook::plan_to(std::size_t node) const {
+  OutlookPlan plan;
+  plan.end = nodes_[node].end;
+  plan.flow = nodes_[node].flow;
+  for (std::size_t k = node; k != 0; k = nodes_[k].parent) {
+    const Action& a = nodes_[k].action;
+    PlannedStart s;
+    s.robot = a.robot;
+    s.serves = a.serves;
+    s.start = a.start;
+    if (a.detour != nullptr) s.detour = *a.detour;
+    if (a.slower != nullptr) s.slower = *a.slower;
+    plan.starts.push_back(std::move(s));
+  }
+  std::reverse(plan.starts.begin(), plan.starts.end());
+  return plan;
+}
+
+Outlook::Beam Outlook::beam(std::size_t index) {
+  static constexpr std::array<Beam, kBeams> kAll{{{8, 0.3, 0},
+                                                  {64, 0.3, 0},
+                                                  {16, 0.3, 12},
+                                                  {64, 1.0, 0},
+                                                  {64, 0.3, 3},
+                                                  {512, 0.3, 0},
+                                                  {64, 1.0, 12},
+                                                  {512, 1.0, 0},
+                                                  {256, 0.3, 4},
+                                                  {2048, 0.3, 0},
+                                                  {512, 0.3, 12},
+                                                  {2048, 0.3, 4}}};
+  return kAll.at(index);
+}
+
+/// The present as the first node; false when there is no saying from where a robot goes on.
+bool Outlook::begin() {
+  nodes_.assign(1, {});
+  nodes_[0].last = timing_.earliest;
+  nodes_[0].end = timing_.earliest;
+  states_.assign(robots_.size(), {});
+  for (RobotIndex i = 0; i < robots_.size(); ++i) {
+    if (!roots_[i]) return false;
+    states_[i].place = roots_[i];
+    states_[i].free = robots_[i].free;
+    if (robots_[i].seen.back().committed) nodes_[0].end = std::max(nodes_[0].end, robots_[i].free - lead_);
+  }
+  return true;
+}
+
+std::optional<OutlookPlan> Outlook::follow(const OutlookPlan& plan) {
+  if (!begin()) return std::nullopt;
+  budget_ = std::numeric_limits<std::size_t>::max();
+  std::size_t node = 0;
+  for (const PlannedStart& p : plan.starts) {
+    const RobotState s = state(node, p.robot);
+    const SampledMotionPtr* motion = p.detour   ? kept(*s.place->posture, p.detour->motion)
+                                     : p.slower ? kept(*s.place->posture, p.slower->motion)
+                                                : &s.place->next;
+    if (motion == nullptr || !*motion) return std::nullopt;
+    const auto start = start_of(node, p.robot, *motion);
+    Place* to = p.detour ? after_detour(p.robot, *s.place, *p.detour) : after_command(p.robot, *s.place);
+    if (!start || !to) return std::nullopt;
+    node = add(node, {p.robot, p.detour ? &*p.detour : nullptr, p.serves, *start, p.slower ? &*p.slower : nullptr}, *motion, to);
+  }
+  std::vector<std::size_t> commands, detours;
+  while (!complete(node)) {  // what has come since goes as early as it can
+    commands.clear();
+    detours.clear();
+    expand(node, 1, commands, detours);
+    if (commands.empty()) commands.swap(detours);
+    if (commands.empty()) return std::nullopt;
+    node = *std::min_element(commands.begin(), commands.end(), [&](auto a, auto b) { return nodes_[a].last < nodes_[b].last; });
+  }
+  return plan_to(node);
+}
+
+/// A motion where it stays, to be pointed at; null when it does not start here.
+const SampledMotionPtr* Outlook::kept(Posture& posture, const SampledMotionPtr& motion) {
+  if (!same_place(posture.q, motion->motion().from())) return nullptr;
+  const auto found = std::find(posture.followed.begin(), posture.followed.end(), motion);
+  if (found != posture.followed.end()) return &*found;
+  posture.followed.push_back(motion);
+  return &posture.followed.back();
+}
+
+std::optional<OutlookPlan> Outlook::search(const std::optional<Instant>& no_later, const OutlookPlan* best, std::size_t budget,
+                                           MapStore& maps) {
+  maps_ = &maps;
+  work_ = 0;
+  budget_ = budget;
+  std::optional<OutlookPlan> found;
+  for (; !exhausted(); ++next_beam_) {
+    const Beam next = beam(next_beam_);
+    if (settled_ && next.detours <= *settled_) continue;
+    auto plan = run(next, no_later, found ? &*found : best);
+    if (work_ > budget_) break;
+    if (plan) found = std::move(plan);
+  }
+  return found;
+}
+
+std::optional<OutlookPlan> Outlook::run(const Beam& beam, std::optional<Instant> no_later, const OutlookPlan* best) {
+  const std::size_t n = robots_.size();
+  if (!begin()) return std::nullopt;
+  if (best != nullptr) no_later = no_later ? std::min(*no_later, best->end) : best->end;
+  std::vector<std::size_t> layer{0}, next, commands, detours;
+  std::optional<std::size_t> best_node;
+  bool cut = false;
+  while (!layer.empty() && !best_node) {
+    next.clear();
+    for (std::size_t k = 0; k < layer.size(); ++k) {
+      if (work_ > budget_) return std::nullopt;
+      commands.clear();
+      detours.clear();
+      expand(layer[k], beam.detours, commands, detours);
+      next.insert(next.end(), commands.begin(), commands.end());
+      layer.insert(layer.end(), detours.begin(), detours.end());
+    }
+    const auto judge = [&](std::size_t k) {
+      double most = 0, sum = 0;
+      for (RobotIndex i = 0; i < n; ++i) {
+        const RobotState& s = state(k, i);
+        const double end = model::to_seconds(s.free - lead_ + s.place->rest);
+        most = std::max(most, end);
+        sum += end;
+      }
+      Node& node = nodes_[k];
+      node.score = most + beam.mean * sum / static_cast<double>(n);
+      return !no_later || most <= model::to_seconds(*no_later) + kSameTime;
+    };
+    next.erase(std::remove_if(next.begin(), next.end(), [&](std::size_t k) { return !judge(k); }), next.end());
+    std::stable_sort(next.begin(), next.end(), [&](std::size_t a, std::size_t b) { return nodes_[a].score < nodes_[b].score; });
+    layer.clear();
+    std::map<std::vector<const Place*>, std::size_t> same;
+    std::vector<const Place*> places(n);
+    for (const std::size_t k : next) {
+      if (complete(k)) {
+        const bool better = !best_node || nodes_[k].end < nodes_[*best_node].end ||
+                            (nodes_[k].end == nodes_[*best_node].end && nodes_[k].flow < nodes_[*best_node].flow);
+        if (better) best_node = k;
+        continue;
+      }
+      if (layer.size() >= beam.width) {
+        cut = true;
+        continue;
+      }
+      for (RobotIndex i = 0; i < n; ++i) places[i] = state(k, i).place;
+      if (++same[places] <= kSameKept) {
+        layer.push_back(k);
+      } else {
+        cut = true;
+      }
+    }
+  }
+  if (!cut) settled_ = beam.detours;
+  if (!best_node) return std::nullopt;
+  OutlookPlan plan = plan_to(*best_node);
+  if (best != nullptr && !plan.better_than(*best)) return std::nullopt;
+  return plan;
+}
+
+}  // namespace interlace::core

@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "simulator/generator.hpp"
+#include "simulator/virtual_cell.hpp"
+#include "tests/support/seed.hpp"
+#include "tests/unit/simulator/cells.hpp"
+
+/// Strategy `lookahead` beside `event`, in virtual time.
+namespace interlace::test {
+namespace {
+
+app::RunReport run(const std::shared_ptr<const model::Cell>& cell, const model::Program& program, const std::string& strategy) {
+  sim::VirtualOptions options;
+  options.strategy = strategy;
+  return sim::run_virtual(cell, program, options);
+}
+
+void expect_all_done(const app::RunReport& r) {
+  EXPECT_EQ(r.completed, r.submitted);
+  EXPECT_EQ(r.collisions.value_or(1), 0U);
+  EXPECT_EQ(r.warnings, 0U);
+}
+
+app::RunReport run_experiment(const std::string& name, double promise, double slowest = 1, bool prepare = false) {
+  auto cell = std::make_shared<model::Cell>(*deployed_cell(name));
+  cell->planning.promise = promise;
+  for (model::Robot& robot : cell->robots) robot.tcp.slowest = slowest;
+  sim::VirtualOptions options;
+  options.strategy = "lookahead";
+  options.prepare = prepare;
+  return sim::run_virtual(cell, app::load_program(deployed(name + "/program.yaml"), cell.get()).value(), options);
+}
+
+/// The targets of the experiments sent twice: within 2 or 3 % of the least possible makespan.
+TEST(Lookahead, IsNearTheOptimum) {
+  const std::vector<std::pair<std::string, double>> targets{
+      {"exp-4-1", 42.04}, {"exp-4-2", 29.47}, {"exp-5-1", 40.57}, {"exp-6-1", 37.23}, {"exp-6-2", 38.6}};
+  for (const auto& [name, most] : targets) {
+    const auto report = run_experiment(name, model::PlanningOptions{}.promise);
+    expect_all_done(report);
+    EXPECT_LE(report.makespan, most) << name;
+  }
+}
+
+TEST(Lookahead, ReliesOnNobodyWhereTheCellForbidsIt) {
+  const auto three = run_experiment("exp-6-1", 0), four = run_experiment("exp-6-2", 0);
+  expect_all_done(three);
+  expect_all_done(four);
+  EXPECT_GE(three.makespan, 40.10) << "the least that starts which rely on nobody allow; event takes as long";
+  EXPECT_NEAR(four.makespan, 38.50, 0.02) << "the bound of all groups of three; event takes 42.14 s";
+}
+
+TEST(Lookahead, GoesSlowerOnlyWhereThatIsNotLater) {
+  for (const char* name : {"exp-5-1", "exp-6-1", "exp-6-2"}) {
+    const auto report = run_experiment(name, 0, 0.3);
+    expect_all_done(report);
+    EXPECT_LE(report.makespan, run_experiment(name, 0).makespan + 1e-6) << name;
+  }
+}
+
+TEST(Lookahead, DecidesTheSameHoweverMuchWasPrepared) {
+  EXPECT_EQ(run_experiment("exp-6-2", 2, 1, false).makespan, run_experiment("exp-6-2", 2, 1, true).makespan);
+}
+
+TEST(Lookahead, IsNeverLaterThanEventAndTellsTheSameStoryTwice) {
+  constexpr double kSame = 1e-6;  // [s] rounding
+  Seed seed;
+  double event = 0, lookahead = 0;
+  for (const char* name : {"pattern-serial-3", "pattern-triangle-3"}) {
+    const auto cell = deployed_cell(name);
+    sim::GeneratorOptions what;
+    what.seed = seed.value();
+    what.per_robot = 6;
+    const auto program = sim::generate_program(*cell, what).value();
+    const auto before = run(cell, program, "event"), ahead = run(cell, program, "lookahead"), again = run(cell, program, "lookahead");
+    expect_all_done(ahead);
+    EXPECT_LE(ahead.makespan, before.makespan + kSame) << name;
+    EXPECT_EQ(ahead.makespan, again.makespan) << name;
+    event += before.makespan;
+    lookahead += ahead.makespan;
+  }
+  EXPECT_LT(lookahead, event) << "it must be worth it somewhere";
+}
+
+TEST(Lookahead, WithoutABudgetIsEvent) {
+  auto cell = std::make_shared<model::Cell>(*deployed_cell("exp-6-2"));
+  cell->planning.budget = 0;
+  const auto program = app::load_program(deployed("exp-6-2/program.yaml"), cell.get()).value();
+  EXPECT_EQ(run(cell, program, "lookahead").makespan, run(cell, program, "event").makespan);
+}
+
+TEST(Lookahead, TakesUpCommandsThatComeLater) {
+  const auto cell = deployed_cell("exp-6-2");
+  auto program = app::load_program(deployed("exp-6-2/program.yaml"), cell.get()).value();
+  double at = 0;
+  for (auto& [robot, steps] : program.robots) {
+    for (auto& step : steps) step.at = at += 0.7;
+  }
+  expect_all_done(run(cell, program, "lookahead"));
+}
+
+TEST(Lookahead, SaysForWhomARobotWaits) {
+  const auto cell = deployed_cell("exp-6-2");
+  const auto program = app::load_program(deployed("exp-6-2/program.yaml"), cell.get()).value();
+  sim::VirtualOptions options;
+  options.strategy = "lookahead";
+  std::size_t said = 0;
+  options.on_status = [&](const model::CommandStatus& s) {
+    if (s.text.find("go first, which ends sooner") == std::string::npos) return;
+    ++said;
+    EXPECT_EQ(s.state, model::CommandState::waiting);
+    EXPECT_EQ(s.reason, model::Reason::delayed);
+  };
+  (void)sim::run_virtual(cell, program, options);
+  EXPECT_GT(said, 0U);
+}
+
+}  // namespace
+}  // namespace interlace::test
