@@ -120,6 +120,38 @@ TEST(PlannerPromises, AreNotCancelledUnderSomebodyOnItsWay) {
   EXPECT_TRUE(desk.dispatches_of("out") == 1 || desk.pass_until_dispatch(1s));
 }
 
+TEST(PlannerPromises, AreKeptBeforeAHold) {
+  OnItsWay desk;
+  ASSERT_TRUE(desk.pass_until_dispatch());
+  desk.hold("hold", "r2");
+  desk.begin(desk.dispatch_of("next"));
+  desk.finish(desk.dispatch_of("in"));
+  EXPECT_TRUE(desk.dispatches_of("out") == 1 || desk.pass_until_dispatch(1s)) << "r1 is on its way to where r2 stands";
+  const std::size_t withdrawn = desk.withdrawals.size();
+  desk.pass(200ms);
+  EXPECT_EQ(desk.withdrawals.size(), withdrawn) << "an unanswered dispatch that is relied on is repeated, not taken back";
+  desk.submit("later", "r2", to_centre());
+  desk.carry_out(desk.dispatch_of("out"));
+  desk.pass(1s);
+  EXPECT_EQ(desk.dispatches_of("later"), 0U) << "held";
+}
+
+TEST(PlannerPromises, AreKeptBeforeAQueueIsReplaced) {
+  OnItsWay desk;
+  ASSERT_TRUE(desk.pass_until_dispatch());
+  desk.begin(desk.dispatch_of("next"));
+  desk.replace("replace", "r2", {});
+  EXPECT_FALSE(is_final(desk.status_of("out").state));
+  desk.finish(desk.dispatch_of("in"));
+  EXPECT_TRUE(desk.dispatches_of("out") == 1 || desk.pass_until_dispatch(1s));
+}
+
+TEST(PlannerPromises, AreNotMadeWhileARobotIsHeld) {
+  OnItsWay desk;
+  desk.hold("hold", "r2");
+  EXPECT_FALSE(desk.pass_until_dispatch(desk.arrival() - desk.now - 1ms));
+}
+
 TEST(PlannerPromises, MayBeGivenUpBeforeAnybodyReliesOnThem) {
   OnItsWay desk;
   desk.cancel("out", "r2");
