@@ -294,7 +294,7 @@ TEST(Malformed, Command) {
   bad_boolean.at(kHasVelocity) = 7;
   expect_malformed(dds::topics::command("cell", kRobot), "interlace::Command", false, linear_command(),
                    {Bytes{0, 1, 0, 0}, cut(good, good.size() / 2), cut(good, good.size() - 4), patched(good, kIdLength, 0xFFFFFFFF),
-                    Bytes(300, 0xFF), bad_boolean});
+                    Bytes(300, 0xFF), bad_boolean, patched(good, good.size() - 4, 101), patched(good, good.size() - 4, 0xFFFFFFFF)});
 }
 
 TEST(Malformed, CommandStatusThatClaimsTooMuch) {
@@ -302,7 +302,7 @@ TEST(Malformed, CommandStatusThatClaimsTooMuch) {
   none.status.conflicts.clear();
   none.status.refusals.clear();
   const Bytes good = serialised(dds::to_wire(none));
-  const std::size_t refusals = good.size() - 4;  // the sequences come last
+  const std::size_t refusals = good.size() - 4 - 4 - 4 - 8;  // the sequences come before the verdict, padding and the deadline
   const std::size_t conflicts = refusals - 4;
   expect_malformed(dds::topics::command_status("cell", kRobot), "interlace::CommandStatus", false, none,
                    {patched(good, conflicts, 17), patched(good, conflicts, 100'000'000), patched(good, conflicts, 0xFFFFFFFF),
@@ -313,7 +313,7 @@ TEST(Malformed, PostureThatClaimsTooMuch) {
   dds::PostureMessage bare = posture();
   bare.posture.holds.clear();
   const Bytes good = serialised(dds::to_wire(bare));
-  const std::size_t tools = good.size() - 4;  // the sequence comes last
+  const std::size_t tools = good.size() - 1 - 4;  // the sequence comes before one flag
   expect_malformed(dds::topics::posture("cell", kRobot), "interlace::Posture", true, bare,
                    {patched(good, tools, 33), patched(good, tools, 100'000'000), patched(good, tools, 0xFFFFFFFF)});
 }
