@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <tuple>
+#include <utility>
 
 #include "monitor/numbers.hpp"
 
@@ -54,13 +55,14 @@ std::vector<Interval> free_starts(std::vector<Interval> forbidden, double from) 
 
 }  // namespace
 
-CollisionPicture draw(const PictureSubject& subject, double margin) {
-  CollisionPicture picture;
-  picture.links = names(subject.motion->robot().model);
-  std::vector<Interval> forbidden;
-  std::size_t total = 0;
-  for (const PictureNeighbour& neighbour : subject.neighbours) {
-    auto& drawn = picture.neighbours.emplace_back();
+namespace {
+
+/// The areas of `neighbours`, at most `room` of them, and the starts they forbid.
+std::vector<CollisionPicture::Neighbour> draw(const PictureSubject& subject, const std::vector<PictureNeighbour>& neighbours, double margin,
+                                              std::size_t& room, std::vector<Interval>& forbidden) {
+  std::vector<CollisionPicture::Neighbour> all;
+  for (const PictureNeighbour& neighbour : neighbours) {
+    auto& drawn = all.emplace_back();
     drawn.robot = neighbour.robot;
     drawn.links = names(neighbour.parts.front().motion->robot().model);
     for (std::size_t k = 0; k < neighbour.parts.size(); ++k) {
@@ -78,13 +80,42 @@ CollisionPicture draw(const PictureSubject& subject, double margin) {
       }
     }
     drawn.areas = joined(std::move(drawn.areas));
-    if (total + drawn.areas.size() > kMaxAreas) {
-      drawn.areas.resize(kMaxAreas - total);
-      picture.complete = false;
-    }
-    total += drawn.areas.size();
+    if (drawn.areas.size() > room) drawn.areas.resize(room);
+    room -= drawn.areas.size();
   }
-  picture.windows = free_starts(std::move(forbidden), subject.ready);
+  return all;
+}
+
+nlohmann::json areas_json(const std::vector<PictureArea>& areas) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const PictureArea& a : areas) {
+    json.push_back({seconds(a.t0), seconds(a.t1), metres(a.length0), metres(a.length1), a.own, a.other, metres(a.clearance)});
+  }
+  return json;
+}
+
+}  // namespace
+
+CollisionPicture draw(const PictureSubject& subject, double margin) {
+  CollisionPicture picture;
+  picture.links = names(subject.motion->robot().model);
+  std::size_t room = kMaxAreas;
+  std::vector<Interval> forbidden;
+  if (!subject.before.empty()) {
+    picture.before = draw(subject, subject.before, margin, room, forbidden);
+    for (const auto& [from, until] : free_starts(std::exchange(forbidden, {}), subject.ready)) {
+      if (from < subject.earliest) picture.windows.emplace_back(from, std::min(until, subject.earliest));
+    }
+  }
+  picture.neighbours = draw(subject, subject.neighbours, margin, room, forbidden);
+  for (const auto& window : free_starts(std::move(forbidden), subject.earliest)) {
+    if (!picture.windows.empty() && picture.windows.back().second >= window.first) {
+      picture.windows.back().second = window.second;
+    } else {
+      picture.windows.push_back(window);
+    }
+  }
+  picture.complete = room > 0;
   return picture;
 }
 
@@ -96,10 +127,7 @@ nlohmann::json to_json(const PictureSubject& subject, const CollisionPicture& pi
     line.push_back({seconds(t), metres(motion.length(t))});
   }
   for (std::size_t n = 0; n < picture.neighbours.size(); ++n) {
-    nlohmann::json areas = nlohmann::json::array(), parts = nlohmann::json::array();
-    for (const PictureArea& a : picture.neighbours[n].areas) {
-      areas.push_back({seconds(a.t0), seconds(a.t1), metres(a.length0), metres(a.length1), a.own, a.other, metres(a.clearance)});
-    }
+    nlohmann::json parts = nlohmann::json::array();
     for (const NeighbourPart& part : subject.neighbours[n].parts) {
       if (part.command.empty()) continue;
       parts.push_back(
@@ -108,18 +136,24 @@ nlohmann::json to_json(const PictureSubject& subject, const CollisionPicture& pi
     neighbours.push_back({{"robot", picture.neighbours[n].robot},
                           {"links", picture.neighbours[n].links},
                           {"parts", std::move(parts)},
-                          {"areas", std::move(areas)}});
+                          {"areas", areas_json(picture.neighbours[n].areas)}});
+  }
+  nlohmann::json before = nlohmann::json::array();
+  for (const auto& neighbour : picture.before) {
+    before.push_back({{"robot", neighbour.robot}, {"links", neighbour.links}, {"areas", areas_json(neighbour.areas)}});
   }
   for (const auto& [from, until] : picture.windows) windows.push_back({seconds(from), seconds(until)});
   return {{"command", subject.command},
           {"robot", subject.robot},
           {"ready", seconds(subject.ready)},
+          {"judged", seconds(subject.earliest)},
           {"start", seconds(subject.start)},
           {"duration", seconds(motion.duration())},
           {"length_m", metres(motion.length(motion.duration()))},
           {"line", std::move(line)},
           {"links", picture.links},
           {"neighbours", std::move(neighbours)},
+          {"before", std::move(before)},
           {"windows", std::move(windows)},
           {"complete", picture.complete}};
 }

@@ -28,8 +28,10 @@ struct PictureSubject {
   std::string command, robot;
   core::SampledMotionPtr motion;
   double ready = 0;             ///< when it could have started
+  double earliest = 0;          ///< when the planner judged it as shown: no window before
   std::optional<double> start;  ///< when it does; empty: nobody knows
   std::vector<PictureNeighbour> neighbours;
+  std::vector<PictureNeighbour> before;  ///< as they were when it was held up first; empty: no different
 };
 
 /// A part of the map in which `own` and `other`, capsules of the two, could touch.
@@ -49,7 +51,8 @@ struct CollisionPicture {
   };
   std::vector<std::string> links;  ///< of the commanded robot's capsules
   std::vector<Neighbour> neighbours;
-  std::vector<std::pair<double, double>> windows;  ///< starts from `ready` on that meet nothing; +∞ where there is no end
+  std::vector<Neighbour> before;                   ///< as it looked when it was held up first
+  std::vector<std::pair<double, double>> windows;  ///< starts that meet nothing, as known at the time; +∞ where there is no end
   bool complete = true;                            ///< false: there are more areas than anybody could look at
 };
 

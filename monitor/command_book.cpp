@@ -23,7 +23,10 @@ const CommandRecord* CommandBook::on_status(std::uint64_t planner, const model::
   CommandRecord& record = found->second;
   const bool was_final = !fresh && model::is_final(record.status.state);
   if (was_final && record.planner == planner) return &record;  // an answer given again
-  if (fresh) order_.push_back(status.id);
+  if (fresh) {
+    order_.push_back(status.id);
+    record.number = ++heard_[{status.robot, status.escape}];
+  }
   record.planner = planner;
   record.status = status;
   record.submitted = *zero + model::to_seconds(status.submitted);
@@ -133,6 +136,7 @@ nlohmann::json to_json(const CommandRecord& record) {
   const model::CommandStatus& s = record.status;
   nlohmann::json json{{"id", s.id.str()},
                       {"robot", s.robot.str()},
+                      {"number", record.number},
                       {"escape", s.escape},
                       {"serves", app::name_or_null(s.serves.str())},
                       {"state", model::to_string(s.state)},

@@ -16,9 +16,10 @@ namespace interlace::monitor {
 
 /// A command as an observer knows it. Times [s] on the observer's line.
 struct CommandRecord {
-  model::CommandStatus status;                      ///< the newest
-  std::uint64_t planner = 0;                        ///< incarnation whose time the stamps of `status` are in
-  std::optional<double> waiting_since;              ///< when it was first seen unable to start although its robot was free
+  model::CommandStatus status;          ///< the newest
+  std::size_t number = 0;               ///< which command of its robot that was heard of it is, from 1 on; escapes are counted apart
+  std::uint64_t planner = 0;            ///< incarnation whose time the stamps of `status` are in
+  std::optional<double> waiting_since;  ///< when it was first seen unable to start although its robot was free
   std::optional<std::pair<double, double>> window;  ///< start window of its newest dispatch
 
   double submitted = 0;
@@ -56,8 +57,9 @@ class CommandBook {
 
   const Timeline& line_;
   std::map<model::CommandId, CommandRecord> records_;
-  std::deque<model::CommandId> order_;     // of the records, oldest first
-  std::deque<model::CommandId> finished_;  // final ones, oldest first
+  std::deque<model::CommandId> order_;                              // of the records, oldest first
+  std::deque<model::CommandId> finished_;                           // final ones, oldest first
+  std::map<std::pair<model::RobotName, bool>, std::size_t> heard_;  // commands and escapes of each robot so far
   std::map<model::CommandId, model::MotionRequest> requests_;
   std::deque<model::CommandId> request_order_;
 };

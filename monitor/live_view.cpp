@@ -90,6 +90,8 @@ void LiveView::on_status(const dds::StatusMessage& message, LocalTime received) 
           motions_.on_decision(status.id, status.robot, *request, seen_[*robot].posture->joints, seen_[*robot].held, *record->start));
     }
   }
+  // What belongs to the same decision of the planner may still be on its way: the neighbours are looked at with the next advance().
+  if (status.state == model::CommandState::waiting || status.state == model::CommandState::scheduled) judged_.push_back(status.id);
   add_command(commands_.find(status.id));
 }
 
@@ -184,6 +186,7 @@ void LiveView::place_robots() {
 
 void LiveView::advance(LocalTime now) {
   now_ = seconds_at(now);
+  note_judgements();
   place_robots();
   watch_alarms();
   if (now_ >= next_curve_) {

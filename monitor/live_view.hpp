@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -78,8 +79,18 @@ class LiveView {
   [[nodiscard]] nlohmann::json waiting_json(const model::RobotName& robot) const;
   [[nodiscard]] nlohmann::json pose_json() const;
   [[nodiscard]] nlohmann::json curves_json() const;
+  /// What was known of a command's neighbours when the planner judged it.
+  struct Judgement {
+    double at = 0;  // [s]
+    std::vector<PictureNeighbour> neighbours;
+  };
+  struct Judgements {
+    std::optional<Judgement> first, last;  // when it was first held up; the newest
+  };
+  void note_judgements();
   [[nodiscard]] model::Result<PictureSubject, std::string> subject_of(const model::CommandId& command);
-  [[nodiscard]] PictureNeighbour neighbour_of(model::RobotIndex robot, double from, double until);
+  [[nodiscard]] std::vector<PictureNeighbour> neighbours_of(model::RobotIndex robot, double from);
+  [[nodiscard]] PictureNeighbour neighbour_of(model::RobotIndex robot, double from);
 
   const app::LoadedCell& cell_;
   LocalTime origin_;
@@ -88,6 +99,8 @@ class LiveView {
   ClearanceObserver observer_;
   CommandBook commands_;
   MotionBook motions_;
+  std::vector<model::CommandId> judged_;  // since the last advance()
+  std::map<model::CommandId, Judgements> judgements_;
   AlarmBoard alarms_;
   std::vector<Seen> seen_;
   std::vector<PlacedRobot> placed_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "monitor/live_view.hpp"
 #include "monitor/numbers.hpp"
@@ -11,7 +12,7 @@ namespace interlace::monitor {
 
 namespace {
 
-constexpr double kSpare = 0.5;  // shown before and after what is asked about [s]
+constexpr double kSameMoment = 0.2;  // a command is judged so soon after its robot is free [s]
 
 Frame map_frame(double t, nlohmann::json content) {
   content["type"] = "map";
@@ -21,13 +22,12 @@ Frame map_frame(double t, nlohmann::json content) {
 
 }  // namespace
 
-/// What `robot` did, does and is going to do between two times.
-PictureNeighbour LiveView::neighbour_of(model::RobotIndex robot, double from, double until) {
+/// What `robot` does from `from` on, as far as it is known now.
+PictureNeighbour LiveView::neighbour_of(model::RobotIndex robot, double from) {
   PictureNeighbour neighbour;
   neighbour.robot = cell_.cell.robots[robot].name.str();
   const KnownMotion* before = nullptr;  // the last one that was over by then: where it stands
   for (const KnownMotion& known : motions_.of(robot)) {
-    if (known.start() > until) continue;
     if (known.end() < from) {
       if (before == nullptr || known.end() > before->end()) before = &known;
       continue;
@@ -42,6 +42,30 @@ PictureNeighbour LiveView::neighbour_of(model::RobotIndex robot, double from, do
     neighbour.parts.push_back({"", motions_.rest(robot, seen_[robot].posture->joints, seen_[robot].held), from});
   }
   return neighbour;
+}
+
+std::vector<PictureNeighbour> LiveView::neighbours_of(model::RobotIndex robot, double from) {
+  std::vector<PictureNeighbour> neighbours;
+  for (const auto& [a, b] : pairs_) {
+    if (a != robot && b != robot) continue;
+    PictureNeighbour neighbour = neighbour_of(a == robot ? b : a, from);
+    if (!neighbour.parts.empty()) neighbours.push_back(std::move(neighbour));
+  }
+  return neighbours;
+}
+
+void LiveView::note_judgements() {
+  for (const model::CommandId& id : std::exchange(judged_, {})) {
+    const CommandRecord* record = commands_.find(id);
+    const auto robot = record != nullptr ? cell_.cell.find(record->status.robot) : std::nullopt;
+    if (!robot) continue;
+    Judgements& judgements = judgements_[id];
+    const double ready = record->start ? *record->start - record->status.delay : record->waiting_since.value_or(now_);
+    judgements.last = Judgement{now_, neighbours_of(*robot, std::min(ready, now_))};
+    if (!judgements.first) judgements.first = judgements.last;
+  }
+  for (auto it = judgements_.begin(); it != judgements_.end();)
+    it = commands_.find(it->first) != nullptr ? std::next(it) : judgements_.erase(it);
 }
 
 model::Result<PictureSubject, std::string> LiveView::subject_of(const model::CommandId& command) {
@@ -68,13 +92,17 @@ model::Result<PictureSubject, std::string> LiveView::subject_of(const model::Com
   }
   if (!subject.motion) return why("its motion is not known here any more");
   subject.ready = subject.start ? *subject.start - status.delay : record->waiting_since.value_or(now_);
-  const double duration = subject.motion->motion().duration();
-  const double until = std::max(subject.start.value_or(now_), subject.ready) + duration + kSpare;
-  for (const auto& [a, b] : pairs_) {
-    if (a != *robot && b != *robot) continue;
-    PictureNeighbour neighbour = neighbour_of(a == *robot ? b : a, subject.ready, until);
-    if (!neighbour.parts.empty()) subject.neighbours.push_back(std::move(neighbour));
+  subject.earliest = subject.ready;
+  const auto judged = judgements_.find(command);
+  if (judged == judgements_.end() || !judged->second.last) {
+    subject.neighbours = neighbours_of(*robot, subject.ready);
+    return subject;
   }
+  const auto& [first, last] = judged->second;
+  subject.neighbours = last->neighbours;
+  if (last->at <= subject.ready + kSameMoment) return subject;
+  subject.earliest = last->at;
+  subject.before = first->neighbours;
   return subject;
 }
 
