@@ -7,7 +7,8 @@ namespace interlace::monitor {
 
 void FrameQueue::push(const Frame& frame) {
   if (frame.kind == FrameKind::snapshot) {
-    drop_all();
+    waiting_.clear();  // the snapshot has it
+    bytes_ = 0;
     append(frame);
     current_ = true;
     return;

@@ -16,6 +16,7 @@ namespace {
 constexpr std::chrono::seconds kHandshake{5};
 constexpr std::chrono::seconds kIdle{30};  // without any sign of life; a ping is sent half way
 constexpr int kRequestsPerSecond = 20;
+constexpr int kSendBuffer = 128 * 1024;  // what the kernel holds for a viewer is not fresh any more, and is bounded too [bytes]
 
 }  // namespace
 
@@ -31,6 +32,8 @@ ViewerSession::~ViewerSession() {
 
 void ViewerSession::accept(UpgradeRequest request) {
   request_ = std::move(request);
+  beast::error_code ignored;
+  beast::get_lowest_layer(stream_).socket().set_option(boost::asio::socket_base::send_buffer_size{kSendBuffer}, ignored);
   websocket::stream_base::timeout timeout{};
   timeout.handshake_timeout = kHandshake;
   timeout.idle_timeout = kIdle;
