@@ -61,7 +61,7 @@ void LiveView::use_planner(std::uint64_t incarnation, LocalTime received) {
   planner_heard_ = t;
   planner_.reset();
   for (const CommandRecord* lost : commands_.on_planner(incarnation, t)) {
-    drop_motion(lost->status.robot, lost->status.id);
+    drop_motion(lost->status.robot, lost->status.id, true);
     add_command(lost);
   }
 }
@@ -79,9 +79,10 @@ void LiveView::on_status(const dds::StatusMessage& message, LocalTime received) 
   const CommandRecord* record = commands_.on_status(message.planner_incarnation, status, seconds_at(received));
   if (record == nullptr) return;
   note_status(status);
-  if (model::is_final(status.state) || status.state == model::CommandState::waiting || status.state == model::CommandState::queued) {
-    if (status.state != model::CommandState::completed) drop_motion(status.robot, status.id);
-  }
+  // Orders come before news of them: what was dispatched is taken back by an order or is over, whatever older news still say.
+  const bool undone = status.state == model::CommandState::queued || status.state == model::CommandState::waiting;
+  const bool over = model::is_final(status.state) && status.state != model::CommandState::completed;
+  if (undone || over) drop_motion(status.robot, status.id, over);
   if (status.state == model::CommandState::scheduled && record->start) {
     const model::MotionRequest* request = commands_.request(status.id);
     const auto robot = cell_.cell.find(status.robot);
@@ -97,7 +98,7 @@ void LiveView::on_status(const dds::StatusMessage& message, LocalTime received) 
 
 /// What a person should hear of a command.
 void LiveView::note_status(const model::CommandStatus& status) {
-  const std::string key = "deadlock " + status.robot.str();
+  const std::string key = "deadlock " + status.id.str();
   const bool deadlock = status.reason == model::Reason::deadlock && !model::is_final(status.state);
   const std::string text = fmt::format("{} of {} cannot start, nobody in its way will move by itself, and no way out helps",
                                        status.id.str(), status.robot.str());
@@ -127,7 +128,7 @@ void LiveView::on_dispatch(const dds::DispatchMessage& message, LocalTime receiv
     add_motion(motions_.on_dispatch(*order, earliest, latest));
     add_command(commands_.on_window(order->id, earliest, latest));
   } else if (const auto* withdrawal = std::get_if<model::Withdrawal>(&message.order)) {
-    drop_motion(withdrawal->robot, withdrawal->id);
+    drop_motion(withdrawal->robot, withdrawal->id, true);
   }
 }
 
@@ -163,8 +164,8 @@ void LiveView::add_motion(const KnownMotion* motion) {
   if (motion != nullptr) add_event("motion", to_json(*motion));
 }
 
-void LiveView::drop_motion(const model::RobotName& robot, const model::CommandId& id) {
-  (void)motions_.forget(robot, id);
+void LiveView::drop_motion(const model::RobotName& robot, const model::CommandId& id, bool dispatched_too) {
+  if (!motions_.forget(robot, id, dispatched_too)) return;
   add_event("motion_over", {{"robot", robot.str()}, {"id", id.str()}});
 }
 

@@ -70,7 +70,7 @@ class LiveView {
   void add_event(const char* type, nlohmann::json content);
   void add_command(const CommandRecord* record);
   void add_motion(const KnownMotion* motion);
-  void drop_motion(const model::RobotName& robot, const model::CommandId& id);
+  void drop_motion(const model::RobotName& robot, const model::CommandId& id, bool dispatched_too);
   void note_status(const model::CommandStatus& status);
   void place_robots();
   void watch_alarms();

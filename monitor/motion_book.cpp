@@ -85,11 +85,12 @@ bool MotionBook::on_execution(const model::ExecutionReported& report, double at)
   return true;
 }
 
-bool MotionBook::forget(const model::RobotName& name, const model::CommandId& id) {
+bool MotionBook::forget(const model::RobotName& name, const model::CommandId& id, bool dispatched_too) {
   const auto robot = cell_.find(name);
   if (!robot) return false;
   auto& kept = motions_[*robot];
-  const auto found = std::find_if(kept.begin(), kept.end(), [&](const KnownMotion& m) { return m.id == id && !m.started; });
+  const auto found = std::find_if(kept.begin(), kept.end(),
+                                  [&](const KnownMotion& m) { return m.id == id && !m.started && (dispatched_too || !m.dispatched); });
   if (found == kept.end()) return false;
   kept.erase(found);
   return true;

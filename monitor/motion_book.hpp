@@ -41,8 +41,9 @@ class MotionBook {
                                  const model::Joints& from, model::ToolSet held, double start);
   /// Whether it is known. A refused, withdrawn or failed one is forgotten.
   bool on_execution(const model::ExecutionReported& report, double at);
-  /// False when it was not known, or has started and goes on.
-  bool forget(const model::RobotName& robot, const model::CommandId& id);
+  /// A decision that was taken back; with `dispatched_too` also one that had been sent. False when it was not known, or has started and
+  /// goes on.
+  bool forget(const model::RobotName& robot, const model::CommandId& id, bool dispatched_too);
 
   [[nodiscard]] const std::deque<KnownMotion>& of(model::RobotIndex robot) const { return motions_[robot]; }
   [[nodiscard]] const KnownMotion* find(model::RobotIndex robot, const model::CommandId& id) const;

@@ -88,6 +88,18 @@ class WebClient {
     }
   }
 
+  /// Whether the server ends this, by a closing frame or at once; false after `patience`.
+  [[nodiscard]] bool ends(std::chrono::milliseconds patience) {
+    const auto deadline = Clock::now() + patience;
+    for (;;) {
+      while (const auto frame = take_frame()) {
+        if (frame->first == 0x8) return true;
+      }
+      if (closed_) return true;
+      if (!receive(deadline)) return false;
+    }
+  }
+
   /// A frame as a browser sends it: masked.
   [[nodiscard]] static std::string masked(unsigned char first, const std::string& text) {
     std::string frame(1, static_cast<char>(first));

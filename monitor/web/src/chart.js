@@ -7,7 +7,8 @@ import {linear, ticks} from './scale.js';
 
 const past = 40; // [s]
 const future = 10; // [s]
-const row = 50; // [px]
+const leastRow = 46; // [px]
+const mostRow = 74;
 const left = 46;
 const top = 6;
 const bottom = 24;
@@ -56,7 +57,8 @@ export class Chart {
     this.choose = choose;
     this.hits = [];
     this.tip = h('div', {class: 'tip', hidden: true});
-    this.holder = h('div');
+    this.holder = h('div', {class: 'fill'});
+    this.row = leastRow;
     root.append(this.holder, this.tip);
     root.addEventListener('pointermove', (event) => this.hover(event));
     root.addEventListener('pointerleave', () => (this.tip.hidden = true));
@@ -80,6 +82,9 @@ export class Chart {
     if (!picture.cell || width === 0) return;
     const now = picture.t;
     const names = picture.cell.robots.map((robot) => robot.name);
+    this.root.style.minHeight = `${top + names.length * leastRow + bottom}px`;
+    const row = Math.min(mostRow, Math.max(leastRow, (this.root.clientHeight - top - bottom) / names.length));
+    this.row = row;
     const height = top + names.length * row + bottom;
     const begin = Math.max(0, now - past);
     const end = begin + past + future;
@@ -90,8 +95,8 @@ export class Chart {
       svg.append(s('text', {class: 'tick', x: x(t), y: height - 8, 'text-anchor': 'middle'}, clock(t).replace(/\.\d$/, '')));
     }
     names.forEach((name, i) => {
-      svg.append(s('text', {class: 'name', x: 6, y: top + i * row + 30}, name));
-      svg.append(s('rect', {x: left - 10, y: top + i * row + 13, width: 4, height: 24, rx: 2, fill: robotColour(i)}));
+      svg.append(s('text', {class: 'name', x: 6, y: top + (i + 0.5) * row + 5}, name));
+      svg.append(s('rect', {x: left - 10, y: top + (i + 0.5) * row - 12, width: 4, height: 24, rx: 2, fill: robotColour(i)}));
     });
     this.hits = [];
     for (const command of picture.commands.values()) this.drawCommand(svg, command, names.indexOf(command.robot), x, now, command.id === selected);
@@ -102,7 +107,7 @@ export class Chart {
 
   drawCommand(svg, command, index, x, now, selected) {
     if (index < 0) return;
-    const y = top + index * row + 13;
+    const y = top + (index + 0.5) * this.row - 12;
     const limit = (t) => Math.min(Math.max(t, x.from), x.to);
     for (const bar of barsOf(command, now)) {
       if (bar.to < x.from || bar.from > x.to) continue;

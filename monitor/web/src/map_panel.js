@@ -1,7 +1,7 @@
 // The collision map of one command: where on its way, and when, it would touch somebody; and the start that avoids it.
 import {h, s, setText} from './dom.js';
 import {commandName, mm} from './format.js';
-import {areaAt, chosenWindow, relative, summary} from './map_view.js';
+import {areaAt, chosenWindow, inSight, relative, summary} from './map_view.js';
 import {robotColour} from './palette.js';
 import {linear, ticks} from './scale.js';
 import {robotIndex} from './store.js';
@@ -95,7 +95,7 @@ export class MapPanel {
     if (view.start !== null) svg.append(s('path', {class: 'chosen-line', dataset: {line: 'chosen'}, d: trajectory(view, view.start, x, y)}));
     if (view.before.length > 0) {
       svg.append(s('line', {class: 'judged', x1: x(view.judged), x2: x(view.judged), y1: margin.top, y2: y(0)}));
-      svg.append(s('text', {class: 'tick', x: x(view.judged) - 4, y: margin.top + 30, 'text-anchor': 'end'}, 'decided'));
+      svg.append(s('text', {class: 'tick', x: x(view.judged) - 4, y: y(0) - 6, 'text-anchor': 'end'}, 'decided'));
     }
     this.now = s('line', {class: 'now', y1: margin.top, y2: y(0)});
     svg.append(this.now, ...this.windows(x, y(0) + 22, width));
@@ -127,11 +127,11 @@ export class MapPanel {
   showLegend(picture) {
     const sample = (...parts) => s('svg', {width: 30, height: 14, 'aria-hidden': 'true'}, ...parts);
     const {view} = this;
-    const areas = view.neighbours.filter((neighbour) => neighbour.areas.length > 0).map((neighbour) => {
+    const areas = view.neighbours.filter((neighbour) => inSight(view, neighbour)).map((neighbour) => {
       const colour = robotColour(robotIndex(picture, neighbour.robot));
       return h('span', {class: 'key'}, sample(s('rect', {class: 'area', x: 2, y: 1, width: 26, height: 12, fill: colour, stroke: colour})), `would touch ${neighbour.robot}`);
     });
-    const blocked = view.before.filter((neighbour) => neighbour.areas.length > 0).map((neighbour) => neighbour.robot);
+    const blocked = view.before.filter((neighbour) => inSight(view, neighbour)).map((neighbour) => neighbour.robot);
     const before = blocked.length > 0 ? [h('span', {class: 'key'}, sample(s('rect', {class: 'area-before', x: 2, y: 1, width: 26, height: 12, fill: 'url(#p-before)'})), `as it looked first: ${blocked.join(' and ')} in the way`)] : [];
     this.legend.replaceChildren(
       ...areas,

@@ -52,10 +52,14 @@ export function chosenWindow(view) {
   return view.windows.find(([from, to]) => view.start >= from - slack && view.start <= to + slack) ?? null;
 }
 
+/** Whether a neighbour has areas inside the picture. */
+export function inSight(view, neighbour) {
+  return neighbour.areas.some((area) => area.t1 > view.from && area.t0 < view.until);
+}
+
 /** The map in one sentence. */
 export function summary(view, name) {
-  const seen = (neighbour) => neighbour.areas.some((area) => area.t1 > view.from && area.t0 < view.until);
-  const against = [...new Set([...view.before, ...view.neighbours].filter(seen).map((neighbour) => neighbour.robot))];
+  const against = [...new Set([...view.before, ...view.neighbours].filter((neighbour) => inSight(view, neighbour)).map((neighbour) => neighbour.robot))];
   const s = (t) => `${t.toFixed(1)} s`;
   const windows = view.windows.map(([from, to]) => (to === Infinity ? `from ${s(from)} on` : `${s(from)} to ${s(to)}`));
   const free = windows.length === 0 ? 'no start is free as things are' : `free to start ${windows.join(', ')}`;

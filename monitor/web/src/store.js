@@ -2,6 +2,7 @@
 
 export const curveSpan = 90; // [s]
 const curvePeriod = 0.1; // [s]
+const mostCommands = 5000;
 
 /** Nothing known yet. */
 export function emptyState() {
@@ -44,7 +45,7 @@ const handlers = {
   },
   command(picture, frame) {
     picture.commands.set(frame.id, frame);
-    if (picture.commands.size > 1000) picture.commands.delete(picture.commands.keys().next().value);
+    if (picture.commands.size > mostCommands) picture.commands.delete(picture.commands.keys().next().value);
   },
   motion(picture, frame) {
     picture.motions.set(`${frame.robot} ${frame.id}`, frame);

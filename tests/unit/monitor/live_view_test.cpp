@@ -196,6 +196,24 @@ TEST_F(LiveViewTest, ASweepIsShownFromItsDispatchUntilItIsOver) {
   EXPECT_EQ(newest(advance(12.1), "motion_over")["id"], "escape-1-1");
 }
 
+TEST_F(LiveViewTest, NewsThatComeAfterTheOrderDoNotTakeItBack) {
+  all_stand(10);
+  dispatch("c", "r1", linear(0.3, 0.25, 0.3), 10.1, 10.05);
+  say(status("c", "r1", model::CommandState::queued), 10.051);
+  auto s = status("c", "r1", model::CommandState::scheduled);
+  s.start = at_seconds(10.1);
+  say(s, 10.052);
+  const auto frames = advance(10.06);
+  EXPECT_TRUE(newest(frames, "motion_over").is_null());
+  model::ExecutionReported report;
+  report.id = model::CommandId{"c"};
+  report.robot = model::RobotName{"r1"};
+  report.state = model::ExecutionState::completed;
+  report.at = at_seconds(12);
+  view_.on_execution({kPlanner, 1, report}, at(12));
+  EXPECT_EQ(newest(advance(12.1), "motion_over")["id"], "c");
+}
+
 TEST_F(LiveViewTest, AlarmsComeAndGo) {
   all_stand(10);
   const auto alarms = [&](double t) { return newest(advance(t), "alarms")["alarms"]; };
@@ -222,7 +240,10 @@ TEST_F(LiveViewTest, ADeadlockAndAFailureAreAlarms) {
   auto s = status("c", "r2", model::CommandState::waiting);
   s.reason = model::Reason::deadlock;
   say(s, 10);
-  EXPECT_EQ(newest(advance(10.1), "alarms")["alarms"][0]["kind"], "deadlock");
+  say(status("another", "r2", model::CommandState::queued), 10.05);
+  const auto holding = newest(advance(10.1), "alarms")["alarms"];
+  EXPECT_EQ(holding[0]["kind"], "deadlock");
+  EXPECT_TRUE(holding[0]["ended"].is_null()) << "news of another command do not end it";
   s.state = model::CommandState::failed;
   s.reason = model::Reason::controller_fault;
   say(s, 10.2);
