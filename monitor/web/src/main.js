@@ -54,9 +54,9 @@ const drawCommands = throttled(() => {
   }
   chart.draw(picture, selected);
   table.draw(picture, selected);
-}, 200);
+}, 250);
 
-const drawCurves = throttled(() => curves.draw(picture), 200);
+const drawCurves = throttled(() => curves.draw(picture), 250);
 
 const drawState = throttled(() => {
   if (!picture.state) return;
@@ -119,4 +119,3 @@ function showConnection() {
 
 byId('follow').addEventListener('change', drawCommands);
 setInterval(showConnection, 250);
-setInterval(drawCommands, 250);

@@ -8,6 +8,7 @@ import {bodiesGeometry, capsuleGeometry, dispose, fixtureMesh, ghostMaterial, pl
 import {robotIndex} from './store.js';
 
 const reach = 0.6; // shown in front of each base [m]
+const softwarePeriod = 60; // [ms]
 const labelAbove = 0.2; // the highest body [m]
 
 function themeColour(name) {
@@ -164,7 +165,10 @@ export class Scene {
   redraw() {
     if (this.dirty) return;
     this.dirty = true;
-    requestAnimationFrame((now) => {
+    // What software draws takes the processor from everything else: half as often is still a movement.
+    const pause = this.software ? Math.max(0, (this.pictures.at(-1) ?? 0) + softwarePeriod - performance.now()) : 0;
+    const next = pause > 0 ? (draw) => setTimeout(() => requestAnimationFrame(draw), pause) : requestAnimationFrame;
+    next((now) => {
       this.dirty = false;
       this.renderer?.render(this.world, this.camera.camera);
       this.placeLabels();

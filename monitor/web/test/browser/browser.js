@@ -23,10 +23,11 @@ export async function processorTime(page) {
   return metrics.find((metric) => metric.name === 'ProcessTime').value;
 }
 
-/** The faults axe finds that are serious or worse, one line each. */
-export async function seriousFaults(page, axeSource) {
-  await page.evaluate(axeSource);
-  const results = await page.evaluate(() => globalThis.axe.run(document, {resultTypes: ['violations']}));
+/** The faults axe finds that are serious or worse, one line each; by all of its rules or some. */
+export async function seriousFaults(page, axeSource, rules) {
+  if (!(await page.evaluate(() => 'axe' in globalThis))) await page.evaluate(axeSource);
+  const options = {resultTypes: ['violations'], ...(rules && {runOnly: {type: 'rule', values: rules}})};
+  const results = await page.evaluate((choice) => globalThis.axe.run(document, choice), options);
   return results.violations
     .filter((violation) => violation.impact === 'serious' || violation.impact === 'critical')
     .map((violation) => `${violation.id} (${violation.impact}): ${violation.nodes.map((node) => `${node.target} ${node.failureSummary}`).join(' | ')}`);
