@@ -100,7 +100,7 @@ model::Result<PictureSubject, std::string> LiveView::subject_of(const model::Com
   }
   const auto& [first, last] = judged->second;
   subject.neighbours = last->neighbours;
-  if (last->at <= subject.ready + kSameMoment) return subject;
+  if (!subject.start || last->at <= subject.ready + kSameMoment) return subject;
   subject.earliest = last->at;
   subject.before = first->neighbours;
   return subject;

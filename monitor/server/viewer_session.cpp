@@ -7,7 +7,6 @@
 namespace interlace::monitor {
 
 namespace beast = boost::beast;
-namespace http = beast::http;
 namespace websocket = beast::websocket;
 using boost::asio::ip::tcp;
 

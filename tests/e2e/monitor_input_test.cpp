@@ -95,9 +95,9 @@ TEST_F(MonitorInput, RequestsThatAreNoneAreRefused) {
 TEST_F(MonitorInput, NoPathLeadsOutOfThePage) {
   scratch_.file("secret.key", "not of the page");
   for (const char* target : {"/../secret.key", "/secret.key", "/..%2fsecret.key", "/%2e%2e/secret.key", "/%2e%2e%2fsecret.key",
-                                    "/..%5csecret.key", "/.%00./secret.key", "/%252e%252e%252fsecret.key", "/..\\secret.key",
-                                    "/assets/../../secret.key", "//etc/passwd", "/../../../../../../etc/passwd", "/%c0%ae%c0%ae/etc/passwd",
-                                    "/./././etc/passwd", "/index.html/../secret.key", "/file:///etc/passwd", "/proc/self/environ"}) {
+                             "/..%5csecret.key", "/.%00./secret.key", "/%252e%252e%252fsecret.key", "/..\\secret.key",
+                             "/assets/../../secret.key", "//etc/passwd", "/../../../../../../etc/passwd", "/%c0%ae%c0%ae/etc/passwd",
+                             "/./././etc/passwd", "/index.html/../secret.key", "/file:///etc/passwd", "/proc/self/environ"}) {
     const std::string head = answer("GET " + std::string{target} + " HTTP/1.1\r\n" + kHost + "\r\n");
     EXPECT_TRUE(head.rfind("HTTP/1.1 404", 0) == 0 || head.rfind("HTTP/1.1 400", 0) == 0) << target << "\n" << head;
   }

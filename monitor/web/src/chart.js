@@ -92,7 +92,7 @@ export class Chart {
     const svg = s('svg', {width, height, role: 'img', 'aria-label': this.describe(picture, now)}, patterns());
     for (const t of ticks(begin, end, width / 90)) {
       svg.append(s('line', {class: 'gridline', x1: x(t), x2: x(t), y1: top, y2: height - bottom}));
-      svg.append(s('text', {class: 'tick', x: x(t), y: height - 8, 'text-anchor': 'middle'}, clock(t).replace(/\.\d$/, '')));
+      svg.append(s('text', {class: 'tick', x: Math.min(x(t), width - 22), y: height - 8, 'text-anchor': 'middle'}, clock(t).replace(/\.\d$/, '')));
     }
     names.forEach((name, i) => {
       svg.append(s('text', {class: 'name', x: 6, y: top + (i + 0.5) * row + 5}, name));

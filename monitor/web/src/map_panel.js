@@ -88,7 +88,7 @@ export class MapPanel {
     }
     for (const neighbour of view.neighbours) {
       const colour = robotColour(robotIndex(picture, neighbour.robot));
-      svg.append(s('path', {class: 'area', d: areasPath(neighbour.areas, x, y, view), fill: colour, stroke: colour, dataset: {robot: neighbour.robot}}));
+      svg.append(s('path', {class: 'area', d: areasPath(neighbour.areas, x, y, view), fill: colour, dataset: {robot: neighbour.robot}}));
     }
     svg.append(s('line', {class: 'goal', x1: margin.left, x2: width - margin.right, y1: y(view.length), y2: y(view.length)}));
     if (view.start === null || view.start > 0.05) svg.append(s('path', {class: 'at-once', d: trajectory(view, 0, x, y)}));
@@ -129,7 +129,7 @@ export class MapPanel {
     const {view} = this;
     const areas = view.neighbours.filter((neighbour) => inSight(view, neighbour)).map((neighbour) => {
       const colour = robotColour(robotIndex(picture, neighbour.robot));
-      return h('span', {class: 'key'}, sample(s('rect', {class: 'area', x: 2, y: 1, width: 26, height: 12, fill: colour, stroke: colour})), `would touch ${neighbour.robot}`);
+      return h('span', {class: 'key'}, sample(s('rect', {class: 'area', x: 2, y: 1, width: 26, height: 12, fill: colour})), `would touch ${neighbour.robot}`);
     });
     const blocked = view.before.filter((neighbour) => inSight(view, neighbour)).map((neighbour) => neighbour.robot);
     const before = blocked.length > 0 ? [h('span', {class: 'key'}, sample(s('rect', {class: 'area-before', x: 2, y: 1, width: 26, height: 12, fill: 'url(#p-before)'})), `as it looked first: ${blocked.join(' and ')} in the way`)] : [];

@@ -6,7 +6,7 @@ export const patience = 40_000; // [ms]: nothing takes this long when all is wel
 /** A page on `url` in a browser of its own, with everything it complained of. Software draws it: there may be no graphics card. */
 export async function openPage(executablePath, options) {
   const browser = await chromium.launch({executablePath, args: ['--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader']});
-  const page = await browser.newPage({viewport: {width: 1440, height: 900}, colorScheme: 'light', ...options});
+  const page = await browser.newPage({viewport: {width: 1440, height: 1130}, colorScheme: 'light', ...options});
   const complaints = [];
   page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
   page.on('pageerror', (error) => complaints.push(error.stack));

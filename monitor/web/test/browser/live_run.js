@@ -48,6 +48,8 @@ try {
     const cells = [...(found?.querySelectorAll('tbody tr:first-child td') ?? [])].map((cell) => cell.textContent);
     return cells.length === 6 ? {robot: found.dataset.robot, sentence: found.querySelector('.sentence').textContent, cells} : null;
   });
+  await page.waitForFunction(() => document.querySelector('#map svg[data-start]'));
+  await shot('waiting-light');
   const {robot, sentence, cells} = await waiting.jsonValue();
   const [blocker, blockerLink, ownLink] = cells;
   seen.waiting = {robot, sentence, blocker, blocker_link: blockerLink, link: ownLink};
@@ -56,9 +58,6 @@ try {
   step('the chart');
   // The chart shows it.
   seen.bars = await page.waitForFunction(() => document.querySelector('#chart [data-kind="waiting"], #chart [data-kind="delayed"]')?.dataset.kind).then((handle) => handle.jsonValue());
-  await page.setViewportSize({width: 1440, height: 1130});
-  await page.waitForFunction(() => document.querySelector('#map svg[data-start]'));
-  await shot('waiting-light');
   assert.deepEqual(await seriousFaults(page, axeSource), []);
 
   step('night and narrow');
@@ -73,7 +72,7 @@ try {
   await page.waitForFunction(wide);
   await shot('narrow-dark', {fullPage: true});
   await page.emulateMedia({colorScheme: 'light'});
-  await page.setViewportSize({width: 1440, height: 900});
+  await page.setViewportSize({width: 1440, height: 1130});
 
   step('the chosen start');
   // A start was chosen later than it could have been: its map shows it, inside a start window. The row of the table is the way there.
@@ -110,11 +109,12 @@ try {
   // The keyboard reaches everything: the camera, and a command's map.
   await page.locator('#canvas').focus();
   for (const key of ['ArrowLeft', 'ArrowUp', '+', 'Home']) await page.keyboard.press(key);
-  const button = page.locator('#commands tr[data-state="completed"] button[aria-pressed="false"]').first();
-  await button.focus();
+  const other = await page.locator('#commands tr[data-state="completed"]:has(button[aria-pressed="false"])').first().getAttribute('data-command');
+  const button = page.locator(`#commands tr[data-command="${other}"] button`);
   const name = await button.textContent();
+  await button.focus();
   await page.keyboard.press('Enter');
-  await page.waitForFunction((text) => document.getElementById('map-about').textContent.startsWith(text), name);
+  await page.waitForFunction((text) => document.getElementById('map-about').textContent.startsWith(`${text} `), name);
   assert.equal(await page.locator('#follow').isChecked(), false, 'a choice is kept');
 
   seen.pictures_per_second = Number(/(\d+) pictures/.exec(await page.locator('#quality').textContent())[1]);
