@@ -32,10 +32,10 @@ nlohmann::json to_json(const monitor::FixtureClearance& pair, const model::Cell&
 
 }  // namespace
 
-ClearanceWatch::ClearanceWatch(const app::LoadedCell& cell, Timeline::LocalTime origin)
+ClearanceWatch::ClearanceWatch(const app::LoadedCell& cell, monitor::Timeline::LocalTime origin)
     : cell_(cell), timeline_(origin), observer_(cell.cell, kStep, kPatience) {}
 
-void ClearanceWatch::on_posture(const dds::PostureMessage& message, Timeline::LocalTime received) {
+void ClearanceWatch::on_posture(const dds::PostureMessage& message, monitor::Timeline::LocalTime received) {
   const auto robot = cell_.cell.find(message.posture.robot);
   if (!robot || message.fingerprint != cell_.fingerprint) {
     ++strangers_;

@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "app_client/timeline.hpp"
 #include "common/app/config/cell_file.hpp"
 #include "common/dds/envelope.hpp"
 #include "monitor/clearance_observer.hpp"
+#include "monitor/timeline.hpp"
 
 namespace interlace::client {
 
@@ -15,10 +15,10 @@ namespace interlace::client {
 class ClearanceWatch {
  public:
   /// `cell` must outlive it; `origin` is the zero of its times.
-  ClearanceWatch(const app::LoadedCell& cell, Timeline::LocalTime origin);
+  ClearanceWatch(const app::LoadedCell& cell, monitor::Timeline::LocalTime origin);
 
   /// Postures from proxies that work with another cell description are left out, and counted.
-  void on_posture(const dds::PostureMessage& message, Timeline::LocalTime received);
+  void on_posture(const dds::PostureMessage& message, monitor::Timeline::LocalTime received);
 
   [[nodiscard]] bool saw_anything() const { return observer_.least_clearance().has_value(); }
   [[nodiscard]] bool saw_collision() const;
@@ -32,7 +32,7 @@ class ClearanceWatch {
 
  private:
   const app::LoadedCell& cell_;
-  Timeline timeline_;
+  monitor::Timeline timeline_;
   monitor::ClearanceObserver observer_;
   std::size_t strangers_ = 0;
 };

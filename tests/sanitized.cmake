@@ -1,7 +1,8 @@
 # What the sanitizer steps of deploy/test build. `deploy/test --full` builds and runs everything under both, the daemons in their end-to-end
 # tests included.
 
-# Everything that runs more than one thread: what the thread sanitizer can find something in.
+# Everything that runs more than one thread: what the thread sanitizer can find something in. The web server's sources take so long to
+# compile that its test runs under the sanitizers with --full alone.
 set(interlace_threaded app_tests proxy_unit simulator_tests)
 if(INTERLACE_DDS)
   list(APPEND interlace_threaded dds_round_trip_test dds_refusal_test dds_mutation_test dds_practice_test dds_cyclone_test)
@@ -9,5 +10,5 @@ endif()
 add_custom_target(threaded_tests DEPENDS ${interlace_threaded})
 
 # All tests but the end-to-end ones.
-add_custom_target(sanitized_tests DEPENDS ${interlace_threaded} client_tests config_tests core_tests mesh_tests model_tests model_walk_tests modeller_tests planner_lossy
+add_custom_target(sanitized_tests DEPENDS ${interlace_threaded} client_tests config_tests core_tests mesh_tests model_tests model_walk_tests modeller_tests monitor_tests planner_lossy
                                           report_tests reproduce_tests core_properties model_properties standoff_tests dissertation_regressions)

@@ -20,6 +20,7 @@ inline const std::string kPlanner = INTERLACE_BIN_DIR "/interlace-planner";
 inline const std::string kProxy = INTERLACE_BIN_DIR "/interlace-proxy";
 inline const std::string kSim = INTERLACE_BIN_DIR "/interlace-sim";
 inline const std::string kClient = INTERLACE_BIN_DIR "/interlace";
+inline const std::string kMonitor = INTERLACE_BIN_DIR "/interlace-monitor";
 
 /// A file of deploy/cells, such as exp-4-2/cell.yaml.
 inline std::string deployed(const std::string& file) {

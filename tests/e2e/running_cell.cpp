@@ -75,6 +75,16 @@ Process& RunningCell::send(const std::string& robot, const std::string& id, cons
   return client(std::move(arguments));
 }
 
+std::string RunningCell::start_monitor(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{kMonitor, file_, "--domain", std::to_string(domain_), "--port", "0"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  monitor_ = &keep(std::move(arguments));
+  if (!monitor_->logs(" url=", kPatience)) return {};
+  const std::string log = monitor_->errors();
+  const auto begin = log.find(" url=") + 5;
+  return log.substr(begin, log.find('\n', begin) - begin);
+}
+
 Process& RunningCell::watch(const std::string& report) {
   return client({"watch", "--clearance", "--cell-file", file_, "--report", report});
 }

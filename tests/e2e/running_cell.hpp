@@ -38,7 +38,11 @@ class RunningCell {
   /// Starts an observer of the clearance; it writes `report` when it is told to end.
   Process& watch(const std::string& report);
 
+  /// Starts the monitor on a free port and returns the address of its page once it is served; empty when it is not.
+  [[nodiscard]] std::string start_monitor(const std::vector<std::string>& more = {});
+
   [[nodiscard]] Process& planner() { return *planner_; }
+  [[nodiscard]] Process& monitor() { return *monitor_; }
   [[nodiscard]] Process& proxy(const std::string& robot) { return *proxies_.at(robot); }
   [[nodiscard]] std::uint32_t domain() const { return domain_; }
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -52,6 +56,7 @@ class RunningCell {
   std::string file_;
   std::vector<std::unique_ptr<Process>> processes_;  // all of them, in the order of their start
   Process* planner_ = nullptr;
+  Process* monitor_ = nullptr;
   std::map<std::string, Process*> proxies_;
 };
 

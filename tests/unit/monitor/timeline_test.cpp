@@ -1,8 +1,8 @@
-#include "app_client/timeline.hpp"
+#include "monitor/timeline.hpp"
 
 #include <gtest/gtest.h>
 
-namespace interlace::client {
+namespace interlace::monitor {
 namespace {
 
 using namespace std::chrono_literals;
@@ -24,6 +24,13 @@ TEST(Timeline, GoesOnWhenAnotherPlannerStartsItsTimeAtZero) {
   EXPECT_NEAR(line.place(8, at_seconds(1.1), kOrigin + 9s), 6, 1e-9);
 }
 
+TEST(Timeline, KnowsTheZeroOfThePlannersItHasHeard) {
+  Timeline line{kOrigin};
+  EXPECT_FALSE(line.zero_of(7));
+  (void)line.place(7, at_seconds(100), kOrigin + 2s);
+  EXPECT_NEAR(line.zero_of(7).value(), -98, 1e-9);
+}
+
 TEST(Timeline, WithoutAPlannerTheTimeOfReceptionCounts) {
   Timeline line{kOrigin};
   EXPECT_NEAR(line.place(0, at_seconds(77), kOrigin + 3s), 3, 1e-9);
@@ -31,4 +38,4 @@ TEST(Timeline, WithoutAPlannerTheTimeOfReceptionCounts) {
 }
 
 }  // namespace
-}  // namespace interlace::client
+}  // namespace interlace::monitor

@@ -1,0 +1,103 @@
+#include "monitor/daemon/monitor_node.hpp"
+
+#include <utility>
+
+#include "common/app/logging.hpp"
+
+namespace interlace::monitor {
+
+using app::log;
+using app::LogLevel;
+
+MonitorNode::Link::Link(dds::Participant& participant, const std::string& cell, const model::RobotName& robot)
+    : commands(participant, dds::topics::command(cell, robot)),
+      statuses(participant, dds::topics::command_status(cell, robot)),
+      dispatches(participant, dds::topics::dispatch(cell, robot)),
+      executions(participant, dds::topics::execution(cell, robot)),
+      postures(participant, dds::topics::posture(cell, robot)) {}
+
+MonitorNode::MonitorNode(app::LoadedCell cell, std::uint32_t domain, const ServerOptions& server, Bundle bundle)
+    : cell_(std::move(cell)),
+      view_(cell_, Clock::now()),
+      participant_({domain, "interlace-monitor " + cell_.cell.name}),
+      states_(participant_, dds::topics::planner_state(cell_.cell.name)),
+      server_(server, std::move(bundle), [this](ViewerId viewer, const ViewerRequest& request) { on_request(viewer, request); }) {
+  wait_.attach(states_);
+  for (const model::Robot& robot : cell_.cell.robots) {
+    Link& link = *links_.emplace_back(std::make_unique<Link>(participant_, cell_.cell.name, robot.name));
+    for (dds::ReaderBase* reader :
+         std::initializer_list<dds::ReaderBase*>{&link.commands, &link.statuses, &link.dispatches, &link.executions, &link.postures}) {
+      wait_.attach(*reader);
+    }
+  }
+  log(LogLevel::info, "ready",
+      {{"cell", cell_.cell.name}, {"robots", cell_.cell.robots.size()}, {"domain", domain}, {"url", server_.url()}});
+}
+
+void MonitorNode::on_request(ViewerId viewer, const ViewerRequest& request) {
+  {
+    const std::lock_guard lock{mutex_};
+    if (const auto* map = std::get_if<MapRequest>(&request)) {
+      asked_.maps[viewer] = map->command;
+    } else {
+      asked_.snapshots.insert(viewer);
+    }
+  }
+  wait_.wake();
+}
+
+void MonitorNode::stop() {
+  stopping_ = true;
+  wait_.wake();
+}
+
+void MonitorNode::run() {
+  while (!stopping_) {
+    (void)wait_.until(next_pose_);
+    take_all();
+    answer();
+    if (const auto now = Clock::now(); now >= next_pose_) {
+      show(now);
+      next_pose_ = std::max(next_pose_ + LiveView::kPosePeriod, now);
+    }
+  }
+  log(LogLevel::info, "stopped", {{"viewers", server_.viewers()}});
+}
+
+void MonitorNode::take_all() {
+  const auto now = Clock::now();
+  states_.take([&](model::PlannerState&& m) { view_.on_state(m, now); });
+  for (auto& link : links_) {
+    link->commands.take([&](dds::CommandMessage&& m) { view_.on_command(m); });
+    link->dispatches.take([&](dds::DispatchMessage&& m) { view_.on_dispatch(m, now); });
+    link->postures.take([&](dds::PostureMessage&& m) { view_.on_posture(m, now); });
+    link->statuses.take([&](dds::StatusMessage&& m) { view_.on_status(m, now); });
+    link->executions.take([&](dds::ExecutionMessage&& m) { view_.on_execution(m, now); });
+  }
+}
+
+void MonitorNode::show(Clock::time_point now) {
+  view_.advance(now);
+  auto events = view_.take_events();
+  if (server_.viewers() == 0) return;
+  for (Frame& event : events) server_.broadcast(std::move(event));
+  server_.broadcast(view_.pose());
+}
+
+void MonitorNode::answer() {
+  Asked asked;
+  {
+    const std::lock_guard lock{mutex_};
+    asked.snapshots.swap(asked_.snapshots);
+    // Maps take milliseconds: one at a time, so that nothing else waits for more than one.
+    if (!asked_.maps.empty()) asked.maps.insert(asked_.maps.extract(asked_.maps.begin()));
+    if (!asked_.maps.empty()) wait_.wake();
+  }
+  if (!asked.snapshots.empty()) {
+    const Frame snapshot = view_.snapshot();
+    for (const ViewerId viewer : asked.snapshots) server_.send(viewer, snapshot);
+  }
+  for (const auto& [viewer, command] : asked.maps) server_.send(viewer, view_.map(command));
+}
+
+}  // namespace interlace::monitor

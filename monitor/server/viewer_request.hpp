@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "common/model/ids.hpp"
+
+namespace interlace::monitor {
+
+inline constexpr std::size_t kMaxViewerMessage = 1024;  ///< [bytes]
+
+/// Everything again, from the start.
+struct SnapshotRequest {};
+/// The collision map of a command.
+struct MapRequest {
+  model::CommandId command;
+};
+using ViewerRequest = std::variant<SnapshotRequest, MapRequest>;
+
+/// What a viewer sent (docs/monitor.md); empty: nothing that a viewer may say. Pure, whatever the text.
+[[nodiscard]] std::optional<ViewerRequest> parse_viewer_request(const std::string& text);
+
+}  // namespace interlace::monitor
