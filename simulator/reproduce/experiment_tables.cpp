@@ -90,7 +90,8 @@ std::string finish_notes(const ExperimentRun* first, const ExperimentRun* second
 
 }  // namespace
 
-std::string outcome_table(const std::vector<StrategyRun>& runs) {
+std::string outcome_table(const std::vector<StrategyRun>& runs, const std::optional<LeastTimes>& least) {
+  const bool by_optimum = least && least->waiting.makespan;
   std::vector<std::vector<std::string>> rows;
   for (const StrategyRun& run : runs) {
     const app::RunReport& r = run.report;
@@ -98,9 +99,23 @@ std::string outcome_table(const std::vector<StrategyRun>& runs) {
                     fmt::format("{}", r.unserved), fmt::format("{}", r.escapes), fmt::format("{}", r.warnings),
                     r.collisions ? fmt::format("{}", *r.collisions) : "–",
                     r.least_clearance ? fmt::format("{:.1f}", 1000 * *r.least_clearance) : "–"});
+    if (!by_optimum) continue;
+    // Of a lower bound nothing is known but that the ratio to the optimum is no larger.
+    const bool all_done = r.completed == r.submitted && r.collisions.value_or(0) == 0;
+    const double ratio = r.makespan / *least->waiting.makespan;
+    rows.back().insert(rows.back().begin() + 2, all_done ? fmt::format("{}{:.3f}", least->waiting.exact ? "" : "≤ ", ratio) : "–");
   }
-  return markdown_table({"strategy", "time [s]", "completed", "unserved", "escapes", "warnings", "collisions", "least clearance [mm]"},
-                        rows);
+  std::vector<std::string> head{"strategy", "time [s]", "completed",  "unserved",
+                                "escapes",  "warnings", "collisions", "least clearance [mm]"};
+  if (by_optimum) head.insert(head.begin() + 2, "time / optimum");
+  return markdown_table(head, rows);
+}
+
+std::string optimum_notes(const LeastTimes& least) {
+  return fmt::format(
+      "- Optimum of the given orders, paths and time laws: {}.\n- Where no start relies on a departure that is still to come, as with "
+      "`event`: {}.\n- Or on a promised one within {:g} s, as with `lookahead`: {}.\n",
+      summary(least.waiting), summary(least.confirmed), least.promise, summary(least.promised));
 }
 
 std::string outcome_notes(const std::vector<StrategyRun>& runs) {

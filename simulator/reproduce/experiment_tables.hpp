@@ -7,8 +7,12 @@
 
 namespace interlace::reproduce {
 
-/// How every strategy finished an experiment: time, commands, escapes, warnings, collisions, least clearance. Markdown.
-[[nodiscard]] std::string outcome_table(const std::vector<StrategyRun>& runs);
+/// How every strategy finished an experiment: time, and that by the least possible one when it is given, commands, escapes, warnings,
+/// collisions, least clearance. Markdown.
+[[nodiscard]] std::string outcome_table(const std::vector<StrategyRun>& runs, const std::optional<LeastTimes>& least = std::nullopt);
+
+/// The least possible times in words. Markdown list.
+[[nodiscard]] std::string optimum_notes(const LeastTimes& least);
 
 /// What is to be said about an outcome table: collisions and commands that were never served, from the numbers. Markdown list; empty when
 /// there is nothing.

@@ -69,6 +69,20 @@ StrategyRun run_strategy(const Case& input, const std::string& strategy, bool wi
   return run;
 }
 
+std::optional<LeastTimes> least_times(const Case& input) {
+  LeastTimes least;
+  least.promise = input.cell->planning.promise;
+  for (sim::Optimum* wanted : {&least.waiting, &least.confirmed, &least.promised}) {
+    sim::OptimumOptions options;
+    options.confirmed = wanted != &least.waiting;
+    options.promise = wanted == &least.promised ? least.promise : 0;
+    auto found = sim::least_makespan(*input.cell, input.program, options);
+    if (!found) return std::nullopt;
+    *wanted = std::move(*found);
+  }
+  return least;
+}
+
 const StrategyRun* find_run(const ExperimentRun& run, const std::string& strategy) {
   const auto found = std::find_if(run.runs.begin(), run.runs.end(), [&](const StrategyRun& r) { return r.report.strategy == strategy; });
   return found == run.runs.end() ? nullptr : &*found;

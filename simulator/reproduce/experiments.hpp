@@ -10,6 +10,7 @@
 #include "common/app/report.hpp"
 #include "common/model/program.hpp"
 #include "common/model/result.hpp"
+#include "simulator/optimum.hpp"
 #include "simulator/reproduce/postures.hpp"
 
 namespace interlace::reproduce {
@@ -40,15 +41,27 @@ struct StrategyRun {
   std::vector<Frame> frames;  ///< every 10 ms
 };
 
+/// Least makespans of a case, waiting at stops and nothing else.
+struct LeastTimes {
+  sim::Optimum waiting;    ///< of all starts
+  sim::Optimum confirmed;  ///< of those that rely on no departure that is still to come, as those of `event`
+  sim::Optimum promised;   ///< of those that rely on promised ones within `promise`, as those of `lookahead`
+  double promise = 0;      ///< [s]
+};
+
 struct ExperimentRun {
   Experiment experiment;
   Case input;
-  std::vector<StrategyRun> runs;  ///< in the order of core::strategy_names()
+  std::vector<StrategyRun> runs;                   ///< in the order of core::strategy_names()
+  std::optional<LeastTimes> least = std::nullopt;  ///< empty: not worked out
 };
 
 /// Runs `input` in virtual time. Deterministic; without `stopwatch` (elapsed seconds) the report holds no measured times.
 [[nodiscard]] StrategyRun run_strategy(const Case& input, const std::string& strategy, bool with_frames,
                                        const std::function<double()>& stopwatch = nullptr);
+
+/// Takes seconds for two robots and up to a minute for more. Empty when a command of the case is inadmissible.
+[[nodiscard]] std::optional<LeastTimes> least_times(const Case& input);
 
 /// The run of `strategy`; null when there is none.
 [[nodiscard]] const StrategyRun* find_run(const ExperimentRun& run, const std::string& strategy);

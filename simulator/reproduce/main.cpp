@@ -89,6 +89,8 @@ void run_experiments(const Arguments& a, reproduce::Results& results) {
     auto input = find_case(folder / "cell.yaml", folder / "program.yaml", what, results.skipped);
     if (!input) continue;
     reproduce::ExperimentRun run{experiment, std::move(*input), {}};
+    run.least = reproduce::least_times(run.input);
+    if (run.least) fmt::print(stderr, "{}: {}\n", what, summary(run.least->waiting));
     for (const auto strategy : core::strategy_names()) {
       run.runs.push_back(reproduce::run_strategy(run.input, std::string{strategy}, true));
       fmt::print(stderr, "{}: {}\n", what, one_line(run.runs.back().report));

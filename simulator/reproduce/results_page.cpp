@@ -56,8 +56,10 @@ std::string experiment_section(const ExperimentRun& run, const std::vector<Pictu
   const Experiment& e = run.experiment;
   std::string text =
       fmt::format("### Experiment {}: {} robots, {} commands\n\n", e.number, run.input.cell->robots.size(), run.input.program.size());
-  text += outcome_table(run.runs) + "\n";
-  if (const std::string notes = outcome_notes(run.runs); !notes.empty()) text += notes + "\n";
+  text += outcome_table(run.runs, run.least) + "\n";
+  std::string notes = outcome_notes(run.runs);
+  if (run.least) notes += optimum_notes(*run.least);
+  if (!notes.empty()) text += notes + "\n";
   text += fmt::format("Command charts, as in {}; the time axes of one experiment are the same.\n\n", e.chart);
   for (const Picture& p : pictures) {
     if (p.file.find("-chart-") != std::string::npos) text += image("command chart " + p.file.substr(0, p.file.size() - 4), p);
