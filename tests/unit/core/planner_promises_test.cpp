@@ -137,7 +137,7 @@ TEST(PlannerPromises, OfARobotThatStandsCountOnceItsProxyHasAccepted) {
 
 TEST(PlannerPromises, ThatAProxyRefusesAreNone) {
   StandsThere desk;
-  desk.report(desk.dispatch_of("out"), ExecutionState::refused, {}, "no");
+  desk.report(desk.dispatch_of("out"), ExecutionState::refused, desk.dispatch_of("out").from, "no");
   desk.stands("r2", desk.dispatch_of("out").from);
   desk.pass(1ms);
   EXPECT_EQ(desk.dispatches_of("next"), 0U);
@@ -148,7 +148,7 @@ TEST(PlannerPromises, ThatAProxyWithdrawsUnderWayAreToldAtOnce) {
   desk.report(desk.dispatch_of("out"), ExecutionState::accepted);
   ASSERT_EQ(desk.dispatches_of("next"), 1U);
   desk.begin(desk.dispatch_of("next"));
-  desk.report(desk.dispatch_of("out"), ExecutionState::refused, {}, "no");
+  desk.report(desk.dispatch_of("out"), ExecutionState::refused, desk.dispatch_of("out").from, "no");
   EXPECT_EQ(desk.status_of("next").reason, Reason::blocked);
   EXPECT_NE(desk.status_of("next").text.find("may collide"), std::string::npos);
 }
