@@ -6,8 +6,8 @@
 
 namespace interlace::core {
 
-// What a look ahead counts as its work: 1 is a look at the intervals of one pair of motions, with which the rest is compared. A map counts the
-// same whether it is there already or not, so that a plan does not depend on who built it and when.
+// What a look ahead counts as its work: 1 is a look at the intervals of one pair of motions, with which the rest is compared. A map counts
+// the same whether it is there already or not, so that a plan does not depend on who built it and when.
 inline constexpr double kWorkPerSecond = 40e6;
 inline constexpr std::size_t kMapWork = 2000;
 inline constexpr std::size_t kEvaluationWork = 4;  // of one distance in a map
