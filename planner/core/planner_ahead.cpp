@@ -112,10 +112,12 @@ void Planner::search_ahead() {
   if (auto slower = ahead_.outlook->slowed_down(*ahead_.plan, static_cast<std::size_t>(budget), maps_)) ahead_.plan = std::move(slower);
 }
 
-/// Somebody was told to start by now and has not been heard of since: what he says comes first.
+/// Somebody was told to start by now and has not been heard of since, or is to start once another one has left: that comes first.
 bool Planner::somebody_is_about_to_start(Instant now) const {
   return std::any_of(robots_.begin(), robots_.end(), [&](const RobotRecord& r) {
-    return r.committed && r.committed->phase == Commitment::Phase::dispatched && r.committed->start_from <= now + options_.lead;
+    if (!r.committed) return false;
+    if (r.committed->phase == Commitment::Phase::held) return departures_of(*r.committed) == Departures::open;
+    return r.committed->phase == Commitment::Phase::dispatched && r.committed->start_from <= now + options_.lead;
   });
 }
 
@@ -130,6 +132,14 @@ bool Planner::start_as_planned(const PlannedStart& planned, Instant now, Decisio
   timing.earliest = std::max(timing.earliest, free_at(r, now));
   Assessment a = strategy_->assess(candidate, neighbours_of(r, now), timing, maps_);
   if (!a.start || *a.start > std::max(now + options_.lead, planned.start)) return false;
+  // A departure that is not promised yet, and cannot be at once, is none to rely on: the start would be taken back as soon as it is due.
+  const bool relies_in_vain = std::any_of(a.departures.begin(), a.departures.end(), [&](model::RobotIndex other) {
+    const RobotRecord& o = robots_[other];
+    const Commitment& last = o.following ? *o.following : *o.committed;
+    if (*a.start >= last.start_until + options_.confirm || promises(o, last.serial)) return false;
+    return o.following || departures_of(last) != Departures::met;
+  });
+  if (relies_in_vain) return false;
   if (planned.detour) {
     const RobotRecord& served = robots_[planned.serves];
     if (!served.next()) return false;

@@ -58,6 +58,7 @@ model::TcpLimits read_tcp(const Field& field, const Units& units) {
   if (!mapping) return limits;
   Quantity part = ratio(1);
   part.least = kSlowest;
+  part.positive = true;
   limits.slowest = number_or(*mapping, "slowest", part, limits.slowest);
   if (const auto velocity = mapping->require("velocity")) limits.velocity = velocity->number(speed(units)).value_or(0);
   if (const auto value = mapping->require("acceleration")) limits.acceleration = value->number(acceleration(units)).value_or(0);
