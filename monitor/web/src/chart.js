@@ -22,6 +22,8 @@ const kinds = {
   failed: 'failed',
 };
 
+const idleKinds = new Set(['waiting', 'delayed']);
+
 /** Patterns that tell the kinds apart without colour. */
 function patterns() {
   const lines = (id, path) =>
@@ -99,17 +101,23 @@ export class Chart {
       svg.append(s('rect', {x: left - 10, y: top + (i + 0.5) * row - 12, width: 4, height: 24, rx: 2, fill: robotColour(i)}));
     });
     this.hits = [];
-    for (const command of picture.commands.values()) this.drawCommand(svg, command, names.indexOf(command.robot), x, now, command.id === selected);
+    // A robot may escape while its own command waits: what moves lies above what waits.
+    for (const idle of [true, false]) {
+      for (const command of picture.commands.values()) {
+        const bars = barsOf(command, now).filter((bar) => idleKinds.has(bar.kind) === idle);
+        this.drawCommand(svg, command, bars, names.indexOf(command.robot), x, command.id === selected);
+      }
+    }
     svg.append(s('line', {class: 'now', x1: x(now), x2: x(now), y1: top, y2: height - bottom}));
     svg.append(s('text', {class: 'now-text', x: x(now) + 4, y: top + 8}, 'now'));
     this.holder.replaceChildren(svg);
   }
 
-  drawCommand(svg, command, index, x, now, selected) {
+  drawCommand(svg, command, bars, index, x, selected) {
     if (index < 0) return;
     const y = top + (index + 0.5) * this.row - 12;
     const limit = (t) => Math.min(Math.max(t, x.from), x.to);
-    for (const bar of barsOf(command, now)) {
+    for (const bar of bars) {
       if (bar.to < x.from || bar.from > x.to) continue;
       const [x0, x1] = [x(limit(bar.from)), x(limit(bar.to))];
       const group = s('g', {dataset: {kind: bar.escape ? `escape-${bar.kind}` : bar.kind, command: command.id}});
@@ -120,7 +128,7 @@ export class Chart {
       svg.append(group);
       this.hits.push({x0, x1, y, bar, command});
     }
-    if (command.window && command.window[1] > x.from && command.window[0] < x.to && command.start !== null) {
+    if (bars.length > 0 && command.window && command.window[1] > x.from && command.window[0] < x.to && command.start !== null) {
       const [w0, w1] = command.window.map((t) => x(limit(t)));
       svg.append(s('path', {class: 'window', dataset: {kind: 'window'}, d: `M${w0},${y - 3} v30 M${w1},${y - 3} v30 M${w0},${y - 3} H${Math.max(w1, w0 + 2)}`}));
     }
