@@ -33,6 +33,7 @@ class AlarmBoard {
   /// raise or end.
   void set(const std::string& key, bool holds, const Alarm& alarm) { holds ? raise(key, alarm) : end(key, alarm.since); }
 
+  [[nodiscard]] bool holds(const std::string& key) const { return holding_.count(key) > 0; }
   [[nodiscard]] bool take_changed();
   [[nodiscard]] std::vector<Alarm> all() const;  ///< those that hold first, each oldest first
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "planner/core/neighbourhood.hpp"
 
@@ -215,31 +217,38 @@ void LiveView::watch_alarms() {
         "stranger " + name, seen_[i].stranger,
         {"other_cell", true, {name}, fmt::format("the proxy of {} works with another cell file than this page shows", name), now_, {}});
   }
+  watch_contacts();
+}
+
+/// A contact is an alarm as long as it lasts, and stays in sight with what was seen of it; also one that was over before anybody looked.
+void LiveView::watch_contacts() {
   const auto& robots = cell_.cell.robots;
+  const auto tell = [&](const std::string& key, bool touching, bool is_new, Alarm alarm, const std::string& what_was) {
+    if (touching) return alarms_.raise(key, std::move(alarm));
+    const bool held = alarms_.holds(key);
+    alarm.text = what_was;
+    if (held) alarms_.raise(key, alarm);
+    if (held) alarms_.end(key, now_);
+    if (!held && is_new) alarms_.note(std::move(alarm));
+  };
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const PairClearance& pair = observer_.pairs()[k];
-    if (pair.contacts == contacts_[k]) continue;
-    contacts_[k] = pair.contacts;
+    const auto near = std::find(pairs_.begin(), pairs_.end(), std::make_pair(pair.a, pair.b));
+    const double now = near == pairs_.end() ? kFar : near_.pairs[static_cast<std::size_t>(near - pairs_.begin())].value_or(kFar);
     const std::string a = robots[pair.a].name.str(), b = robots[pair.b].name.str();
-    alarms_.note({"contact",
-                  true,
-                  {a, b},
-                  fmt::format("{} and {} touched; deepest so far {:.1f} mm, {}'s {} in {}'s {}", a, b, -1e3 * pair.least, a, pair.link_a, b,
-                              pair.link_b),
-                  now_,
-                  {}});
+    const bool is_new = std::exchange(contacts_[k], pair.contacts) != pair.contacts;
+    tell("contact " + a + " " + b, now <= 0, is_new, {"contact", true, {a, b}, fmt::format("{} and {} touch each other", a, b), now_, {}},
+         fmt::format("{} and {} touched; deepest so far {:.1f} mm, {}'s {} in {}'s {}", a, b, -1e3 * pair.least, a, pair.link_a, b,
+                     pair.link_b));
   }
-  if (const std::size_t contacts = observer_.fixtures().contacts(); contacts != fixture_contacts_) {
-    fixture_contacts_ = contacts;
-    const FixtureClearance* deepest = observer_.fixtures().least();
-    const std::string robot = robots[deepest->robot].name.str();
-    alarms_.note({"contact",
-                  true,
-                  {robot},
-                  fmt::format("{} touched {}; deepest so far {:.1f} mm, its {}", robot, cell_.cell.fixtures[deepest->fixture].name,
-                              -1e3 * deepest->least, deepest->link),
-                  now_,
-                  {}});
+  const bool any_new = std::exchange(fixture_contacts_, observer_.fixtures().contacts()) != observer_.fixtures().contacts();
+  const FixtureClearance* deepest = observer_.fixtures().least();
+  for (model::RobotIndex i = 0; deepest != nullptr && i < robots.size(); ++i) {
+    const std::string robot = robots[i].name.str();
+    tell("fixture " + robot, near_.fixtures[i].value_or(kFar) <= 0, any_new && deepest->robot == i,
+         {"contact", true, {robot}, robot + " touches a fixture", now_, {}},
+         fmt::format("{} touched {}; deepest so far {:.1f} mm, its {}", robot, cell_.cell.fixtures[deepest->fixture].name,
+                     -1e3 * deepest->least, deepest->link));
   }
 }
 

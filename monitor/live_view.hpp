@@ -74,6 +74,7 @@ class LiveView {
   void note_status(const model::CommandStatus& status);
   void place_robots();
   void watch_alarms();
+  void watch_contacts();
   void use_planner(std::uint64_t incarnation, LocalTime received);
   [[nodiscard]] nlohmann::json state_json() const;
   [[nodiscard]] nlohmann::json waiting_json(const model::RobotName& robot) const;

@@ -264,10 +264,16 @@ TEST_F(LiveViewTest, ContactIsAnAlarmWithItsLinks) {
     posture("r1", 10 + 0.01 * i);
     posture("r2", 10 + 0.01 * i, &*q);
   }
-  const auto alarms = newest(advance(10.3), "alarms")["alarms"];
+  auto alarms = newest(advance(10.3), "alarms")["alarms"];
   ASSERT_EQ(alarms.size(), 1U) << alarms;
   EXPECT_EQ(alarms[0]["kind"], "contact");
-  EXPECT_NE(alarms[0]["text"].get<std::string>().find("r1 and r2 touched"), std::string::npos) << alarms[0]["text"];
+  EXPECT_EQ(alarms[0]["text"], "r1 and r2 touch each other");
+  EXPECT_TRUE(alarms[0]["ended"].is_null());
+  for (int i = 31; i < 40; ++i) all_stand(10 + 0.01 * i);
+  alarms = newest(advance(10.4), "alarms")["alarms"];
+  ASSERT_EQ(alarms.size(), 1U) << alarms;
+  EXPECT_FALSE(alarms[0]["ended"].is_null());
+  EXPECT_EQ(alarms[0]["text"].get<std::string>().rfind("r1 and r2 touched; deepest so far ", 0), 0U) << alarms[0]["text"];
 }
 
 TEST_F(LiveViewTest, WhatAPlannerLeftUndoneIsOverWithIt) {
