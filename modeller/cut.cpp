@@ -11,7 +11,7 @@ using mesh::Mesh;
 /// Where a corner of a cut triangle comes from: a vertex (i, i), or the point where the plane crosses the edge i–j, i < j.
 using Origin = std::pair<int, int>;
 
-class Part {
+class CutPart {
  public:
   /// Adds the convex polygon `corners` as a fan; nothing when it has fewer than three.
   void add(const std::vector<std::pair<Origin, model::Vector3>>& corners) {
@@ -37,8 +37,8 @@ std::pair<Mesh, Mesh> cut(const Mesh& mesh, const model::Vector3& n, double offs
   height.reserve(mesh.vertices.size());
   for (const auto& p : mesh.vertices) height.push_back(n.dot(p) - offset);
 
-  Part below;
-  Part above;
+  CutPart below;
+  CutPart above;
   for (const Eigen::Vector3i& t : mesh.triangles) {
     std::vector<std::pair<Origin, model::Vector3>> low;
     std::vector<std::pair<Origin, model::Vector3>> high;

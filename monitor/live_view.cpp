@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kObserverStep = 0.005;  // [s]
 constexpr double kSilence = 0.5;         // after which a robot is no longer known [s]
-constexpr double kPlannerSilence = 1.5;  // heartbeats come ten times a second [s]
 constexpr double kFirstWords = 3;        // as long may those take that were never heard [s]
 
 Pairs pairs_of(const model::Cell& cell) {

@@ -35,6 +35,7 @@ class LiveView {
   static constexpr std::chrono::milliseconds kStatePeriod{250};
   static constexpr std::chrono::milliseconds kCurvePeriod{200};
   static constexpr std::size_t kCurvePoints = 450;  ///< 90 s
+  static constexpr double kPlannerSilence = 1.5;    ///< heartbeats come ten times a second [s]
 
   /// `cell` must outlive it. `origin` is the zero of its times.
   LiveView(const app::LoadedCell& cell, LocalTime origin);

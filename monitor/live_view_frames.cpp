@@ -11,8 +11,6 @@ namespace interlace::monitor {
 
 namespace {
 
-constexpr double kPlannerSilence = 1.5;  // [s]
-
 Frame frame(FrameKind kind, const char* type, double t, nlohmann::json content) {
   content["type"] = type;
   content["t"] = seconds(t);

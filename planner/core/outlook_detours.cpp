@@ -14,8 +14,8 @@ using model::RobotIndex;
 
 namespace {
 
-constexpr double kBeyond = 1e-3;     // [m] a detour goes on after the last place that is in the way
-constexpr std::size_t kDetours = 3;  // of one robot for one command
+constexpr double kDetourBeyond = 1e-3;  // [m] a detour goes on after the last place that is in the way
+constexpr std::size_t kDetours = 3;     // of one robot for one command
 
 /// Local time from which on a robot that carries out the moving motion of `map` could stop and be clear, the earliest.
 std::optional<double> first_clear(const TimingMap& map) {
@@ -84,9 +84,9 @@ const std::vector<Detour>& Outlook::detours_of(RobotIndex robot, Place& place, c
       if (!clear) continue;
       const model::Motion& full = way.full->motion();
       const double whole = full.length(full.duration());
-      const double length = full.length(*clear) + kBeyond;
+      const double length = full.length(*clear) + kDetourBeyond;
       Detour d{way.way, way.request, way.full};
-      if (full.is_linear() && length < whole - kBeyond) {
+      if (full.is_linear() && length < whole - kDetourBeyond) {
         d.request = shortened(full, length);
         d.motion = admitted(robot, model::MotionBodies::unchanged(*place.posture->body), place.posture->q, d.request);
       }

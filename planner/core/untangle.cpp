@@ -11,8 +11,8 @@ using model::RobotIndex;
 
 namespace {
 
-constexpr int kAssessments = 3000;   // of single steps before the search gives up: bounds the time of a decision
-constexpr double kSamePlace = 1e-9;  // [rad]
+constexpr int kAssessments = 3000;  // of single steps before the search gives up: bounds the time of a decision
+constexpr double kSameStop = 1e-9;  // [rad]
 
 /// A way from one place of a robot to another.
 struct Way {
@@ -96,7 +96,7 @@ class Untangling {
   std::size_t place(RobotIndex robot, const model::Joints& q, bool on_trail, std::size_t came_back) {
     std::vector<Place>& known = places_[robot];
     for (std::size_t k = 0; k < known.size(); ++k) {
-      if ((known[k].q - q).cwiseAbs().maxCoeff() <= kSamePlace) return k;
+      if ((known[k].q - q).cwiseAbs().maxCoeff() <= kSameStop) return k;
     }
     Place p;
     p.q = q;

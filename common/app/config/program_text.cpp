@@ -34,14 +34,13 @@ void write_step(TextBuffer& out, const model::ProgramStep& step, const Units& un
 }
 
 void write_event(TextBuffer& out, const model::ProgramEvent& event, const Units& units) {
-  using What = model::ProgramEvent::What;
-  const char* what = event.what == What::hold     ? "hold"
-                     : event.what == What::resume ? "resume"
-                     : event.what == What::cancel ? "cancel"
-                                                  : "replace";
+  const char* what = event.what == model::ProgramEvent::What::hold     ? "hold"
+                     : event.what == model::ProgramEvent::What::resume ? "resume"
+                     : event.what == model::ProgramEvent::What::cancel ? "cancel"
+                                                                       : "replace";
   append(out, "  - at: {}\n    {}: {}\n", number_text(event.at, 1), what, event.robot.str());
-  if (event.what == What::cancel) append(out, "    command: {}\n", event.command);
-  if (event.what != What::replace) return;
+  if (event.what == model::ProgramEvent::What::cancel) append(out, "    command: {}\n", event.command);
+  if (event.what != model::ProgramEvent::What::replace) return;
   append(out, "    by:{}\n", event.commands.empty() ? " []" : "");
   for (const model::ProgramStep& step : event.commands) write_step(out, step, units, "      ");
 }

@@ -7,7 +7,8 @@ import {openPage, patience, processorTime, seriousFaults} from './browser.js';
 
 const [, , chromium, url, folder] = process.argv;
 const axeSource = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-const loadLimit = 2; // [s]
+const loadLimit = 2; // [s] on a machine with nothing else to do
+const workLimit = 5; // [s] of the page's own work where others slow it down: they also cost it caches and clock
 const seen = {};
 
 mkdirSync(folder, {recursive: true});
@@ -23,7 +24,7 @@ try {
   await page.waitForFunction(() => document.documentElement.dataset.drawn);
   seen.load_s = Number(await page.evaluate(() => document.documentElement.dataset.drawn)) / 1000;
   seen.load_processor_s = await processorTime(page);
-  assert.ok(Math.min(seen.load_s, seen.load_processor_s) < loadLimit, `loaded in ${seen.load_s} s, ${seen.load_processor_s} s of work`);
+  assert.ok(seen.load_s < loadLimit || seen.load_processor_s < workLimit, `loaded in ${seen.load_s} s, ${seen.load_processor_s} s of work`);
   await page.waitForFunction(() => document.querySelectorAll('.card').length === 4);
   assert.equal(await page.locator('html').getAttribute('data-connection'), 'live');
   const before = await positions();
