@@ -236,7 +236,8 @@ void LiveView::watch_contacts() {
     const double now = near == pairs_.end() ? kFar : near_.pairs[static_cast<std::size_t>(near - pairs_.begin())].value_or(kFar);
     const std::string a = robots[pair.a].name.str(), b = robots[pair.b].name.str();
     const bool is_new = std::exchange(contacts_[k], pair.contacts) != pair.contacts;
-    tell("contact " + a + " " + b, now <= 0, is_new, {"contact", true, {a, b}, fmt::format("{} and {} touch each other", a, b), now_, {}},
+    tell(fmt::format("contact {} {}", a, b), now <= 0, is_new,
+         {"contact", true, {a, b}, fmt::format("{} and {} touch each other", a, b), now_, {}},
          fmt::format("{} and {} touched; deepest so far {:.1f} mm, {}'s {} in {}'s {}", a, b, -1e3 * pair.least, a, pair.link_a, b,
                      pair.link_b));
   }
