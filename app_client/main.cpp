@@ -10,7 +10,7 @@ namespace commands = client::commands;
 
 int main(int argc, char** argv) {
   try {
-    client::Interrupts interrupts;
+    app::Interrupts interrupts;
     CLI::App cli{"Gives commands to a running cell and shows what becomes of them. `interlace SUBCOMMAND --help` tells more."};
     app::add_common(cli);
     cli.require_subcommand(1);

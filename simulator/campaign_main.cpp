@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
-#include <atomic>
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -12,7 +10,7 @@
 #include "common/app/command_line.hpp"
 #include "common/app/config/cell_file.hpp"
 #include "common/app/guarded_main.hpp"
-#include "common/app/signals.hpp"
+#include "common/app/interrupts.hpp"
 #include "planner/core/strategy.hpp"
 #include "simulator/campaign.hpp"
 
@@ -100,17 +98,11 @@ ExitCode run(Arguments& a) {
       return ExitCode::bad_input;
     }
   }
-  std::atomic<bool> stop{false};
-  app::Signals signals;
-  signals.on_signal([&stop](int, int count) {
-    stop = true;
-    if (count > 1) std::_Exit(app::to_int(ExitCode::interrupted));
-  });
-  a.options.stop = [&stop] { return stop.load(); };
+  const app::Interrupts interrupts;
+  a.options.stop = [&interrupts] { return interrupts.requested(); };
   a.options.stopwatch = elapsed_seconds;
   a.options.progress = show_progress;
   const auto report = sim::run_campaign(a.options);
-  signals.stop_calling();
   if (a.json) {
     std::cout << to_json(report).dump(2) << '\n';
   } else {

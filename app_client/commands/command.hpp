@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "app_client/client.hpp"
-#include "app_client/interrupts.hpp"
 #include "common/app/exit_code.hpp"
+#include "common/app/interrupts.hpp"
 
 /// The sub-commands of `interlace`: each adds its options to the command line and says how to run.
 namespace interlace::client::commands {
+
+using app::Interrupts;
 
 struct Command {
   CLI::App* options;  ///< parsed() when it was chosen

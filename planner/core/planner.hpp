@@ -78,7 +78,7 @@ class Planner {
   [[nodiscard]] model::PlannerState state(Instant now) const;
 
   /// A client holds it.
-  [[nodiscard]] bool holds(model::RobotIndex robot) const { return robots_[robot].held; }
+  [[nodiscard]] bool is_held(model::RobotIndex robot) const { return robots_[robot].held; }
 
   /// Between decisions: builds the next map that one of the coming ones will most likely ask for. False when there is none left to build.
   /// Changes how long decisions take and nothing else. One call takes as long as one map.
@@ -112,6 +112,7 @@ class Planner {
   void publish(const model::CommandStatus& status, Decisions& out);
 
   // Control: planner_control.cpp
+  [[nodiscard]] RobotRecord* robot_asked(const model::CommandStatus& answer, Decisions& out);
   void hold(RobotRecord& r, Decisions& out);
   void scene_is_new();
   void tell_held(Decisions& out);

@@ -296,18 +296,11 @@ Decisions Planner::on(const model::StopRequested& event, Instant now) {
   answer.id = event.id;
   answer.robot = event.robot;
   answer.submitted = now;
-  if (const auto known = known_.find(event.id); known != known_.end()) {
-    out.statuses.push_back(known->second);
-    return out;
-  }
-  const auto index = cell_->find(event.robot);
-  if (!index) {
-    reject(answer, Reason::bad_request, fmt::format("there is no robot \"{}\" in cell {}", event.robot.str(), cell_->name), out);
-    return out;
-  }
-  RobotRecord& r = robots_[*index];
+  RobotRecord* const asked = robot_asked(answer, out);
+  if (!asked) return out;
+  RobotRecord& r = *asked;
   // A departure that somebody under way relies on is not given up: the robot stops where that leads.
-  const bool relied_on = r.following && relying_on(r, *r.following, true) != nullptr;
+  const bool relied_on = is_relied_on(r, r.following);
   if (r.following && !relied_on) put_following_back(r);
   std::size_t given_up = r.queue.size();
   drop_escapes(r, out);

@@ -40,6 +40,17 @@ std::string held_text(const RobotRecord& r) {
 
 }  // namespace
 
+/// The robot that a request is for; null when the request is answered already: known, or for no robot of the cell.
+RobotRecord* Planner::robot_asked(const CommandStatus& answer, Decisions& out) {
+  if (const auto known = known_.find(answer.id); known != known_.end()) {
+    out.statuses.push_back(known->second);
+    return nullptr;
+  }
+  if (const auto index = cell_->find(answer.robot)) return &robots_[*index];
+  reject(answer, Reason::bad_request, fmt::format("there is no robot \"{}\" in cell {}", answer.robot.str(), cell_->name), out);
+  return nullptr;
+}
+
 /// Nothing of what was assessed in vain holds any more.
 void Planner::scene_is_new() {
   for (RobotRecord& r : robots_) r.in_vain = {};
@@ -64,17 +75,10 @@ void Planner::hold(RobotRecord& r, Decisions& out) {
 
 Decisions Planner::on(const model::HoldRequested& event, Instant now) {
   Decisions out;
-  if (const auto known = known_.find(event.id); known != known_.end()) {
-    out.statuses.push_back(known->second);
-    return out;
-  }
   CommandStatus answer = answer_to(event.id, event.robot, now);
-  const auto index = cell_->find(event.robot);
-  if (!index) {
-    reject(answer, Reason::bad_request, fmt::format("there is no robot \"{}\" in cell {}", event.robot.str(), cell_->name), out);
-    return out;
-  }
-  RobotRecord& r = robots_[*index];
+  RobotRecord* const asked = robot_asked(answer, out);
+  if (!asked) return out;
+  RobotRecord& r = *asked;
   const bool was_held = r.held;
   hold(r, out);
   answer.text = fmt::format("{}{}; {}", was_held ? "it was held already" : "held", r.committed ? "; what it has begun it ends" : "",
@@ -86,17 +90,10 @@ Decisions Planner::on(const model::HoldRequested& event, Instant now) {
 
 Decisions Planner::on(const model::ResumeRequested& event, Instant now) {
   Decisions out;
-  if (const auto known = known_.find(event.id); known != known_.end()) {
-    out.statuses.push_back(known->second);
-    return out;
-  }
   CommandStatus answer = answer_to(event.id, event.robot, now);
-  const auto index = cell_->find(event.robot);
-  if (!index) {
-    reject(answer, Reason::bad_request, fmt::format("there is no robot \"{}\" in cell {}", event.robot.str(), cell_->name), out);
-    return out;
-  }
-  RobotRecord& r = robots_[*index];
+  RobotRecord* const asked = robot_asked(answer, out);
+  if (!asked) return out;
+  RobotRecord& r = *asked;
   answer.text = fmt::format("{}; {}", r.held ? "resumed" : "it was not held", waiting_text(r.queue.size()));
   if (r.held) {
     r.held = false;

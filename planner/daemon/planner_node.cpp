@@ -245,7 +245,7 @@ void PlannerNode::send_heartbeats() {
       beat.planner_received = link->proxy->received;
     }
     beat.planner_sent = now();
-    beat.held = planner_.holds(*cell_->find(link->robot));
+    beat.held = planner_.is_held(*cell_->find(link->robot));
     auto message = envelope();
     message.order = beat;
     (void)link->dispatches.write(message);  // the next one comes in a tenth of a second

@@ -1,14 +1,14 @@
-#include "app_client/interrupts.hpp"
+#include "common/app/interrupts.hpp"
 
 #include <cstdlib>
 
 #include "common/app/exit_code.hpp"
 
-namespace interlace::client {
+namespace interlace::app {
 
 Interrupts::Interrupts() {
   signals_.on_signal([this](int, int count) {
-    if (count > 1) std::_Exit(app::to_int(app::ExitCode::interrupted));
+    if (count > 1) std::_Exit(to_int(ExitCode::interrupted));
     requested_ = true;
     const std::lock_guard lock{mutex_};
     if (waker_) waker_();
@@ -26,4 +26,4 @@ Interrupts::Scope::~Scope() {
   owner_.waker_ = nullptr;
 }
 
-}  // namespace interlace::client
+}  // namespace interlace::app

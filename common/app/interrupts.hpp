@@ -6,10 +6,10 @@
 
 #include "common/app/signals.hpp"
 
-namespace interlace::client {
+namespace interlace::app {
 
-/// Ctrl-C and SIGTERM for a command of the command line: the first asks it to end, the second ends the process at once with exit code 130.
-/// Build it first in main. Functions from the main thread, `requested` from any.
+/// Ctrl-C and SIGTERM for a program that works until it is done: the first asks it to end, the second ends the process at once with exit
+/// code 130. Build it first in main. Functions from the main thread, `requested` from any.
 class Interrupts {
  public:
   Interrupts();
@@ -32,7 +32,7 @@ class Interrupts {
   std::atomic<bool> requested_{false};
   std::mutex mutex_;
   std::function<void()> waker_;
-  app::Signals signals_;  // last: its thread ends before what it calls goes
+  Signals signals_;  // last: its thread ends before what it calls goes
 };
 
-}  // namespace interlace::client
+}  // namespace interlace::app
