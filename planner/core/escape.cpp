@@ -26,18 +26,6 @@ double braking_length(const model::Motion& motion) {
   return tcp.velocity * tcp.velocity / (2 * tcp.acceleration);
 }
 
-/// What of the moving robot's time no cell of `map` holds, first instant from `blocked.front()` on: the first gap.
-std::optional<double> first_gap(std::vector<std::pair<double, double>> blocked, double end) {
-  std::sort(blocked.begin(), blocked.end());
-  double clear = 0;
-  for (const auto& [from, until] : blocked) {
-    if (from > clear) break;
-    clear = std::max(clear, until);
-  }
-  if (clear > end) return std::nullopt;
-  return clear;
-}
-
 }  // namespace
 
 EscapeSearch::EscapeSearch(const model::Cell& cell, const Neighbourhood& neighbourhood, std::vector<EscapeView> robots,
@@ -305,14 +293,18 @@ const RequestedMotion& EscapeSearch::cut(RobotIndex robot, const Way& way, doubl
 
 /// Local time on a whole way from which on its robot could stop and be clear of everything that room is made for, the earliest.
 std::optional<double> EscapeSearch::first_clear(const SampledMotionPtr& full) {
-  std::vector<std::pair<double, double>> blocked;
+  TimesInTheWay all;
   for (const SampledMotionPtr& p : protected_) {
-    for (const BlockedCell& c : maps_.get(p, full).map.blocked) blocked.emplace_back(c.t0, c.t1);
+    const auto& times = maps_.in_the_way(p, full).times;
+    all.times.insert(all.times.end(), times.begin(), times.end());
   }
   const double end = full->motion().duration();
-  if (!rules_.brake_after_area) return first_gap(std::move(blocked), end);
+  if (!rules_.brake_after_area) {
+    std::sort(all.times.begin(), all.times.end());
+    return all.first_clear(end);
+  }
   double height = 0;  // the dissertation's: beyond the whole collision area
-  for (const auto& b : blocked) height = std::max(height, b.second);
+  for (const auto& [from, until] : all.times) height = std::max(height, until);
   return height > end ? std::nullopt : std::optional{height};
 }
 

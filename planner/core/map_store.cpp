@@ -6,9 +6,9 @@ namespace interlace::core {
 
 namespace {
 
-KeptMap build(SampledMotion& commanded, SampledMotion& moving, double margin) {
+KeptMap shifts_of(SampledMotion& commanded, SampledMotion& moving, double margin) {
   KeptMap kept;
-  kept.map = build_timing_map(commanded, moving, margin);
+  kept.map = build_shift_map(commanded, moving, margin);
   kept.map.blocked.shrink_to_fit();
   const double commanded_stretch = commanded.robot().controller.speed_error, moving_stretch = moving.robot().controller.speed_error;
   kept.forbidden = forbidden_shifts(kept.map, commanded_stretch, moving_stretch);
@@ -20,30 +20,60 @@ KeptMap build(SampledMotion& commanded, SampledMotion& moving, double margin) {
   return kept;
 }
 
+std::size_t bytes_of(const TimingMap& map) {
+  return sizeof(TimingMap) + map.blocked.capacity() * sizeof(BlockedCell);
+}
+
 std::size_t bytes_of(const KeptMap& kept) {
-  return sizeof(KeptMap) + kept.map.blocked.capacity() * sizeof(BlockedCell) +
+  return sizeof(KeptMap) - sizeof(TimingMap) + bytes_of(kept.map) +
          (kept.forbidden.capacity() + kept.passing.capacity() + kept.at_end.capacity()) * sizeof(ForbiddenShift);
 }
 
 }  // namespace
 
-const std::shared_ptr<const KeptMap>& MapStore::share(const SampledMotionPtr& commanded, const SampledMotionPtr& moving) {
+MapStore::Kept& MapStore::entry(const SampledMotionPtr& commanded, const SampledMotionPtr& moving) {
   const auto key = std::make_pair(commanded->id(), moving->id());
   ++uses_;
-  if (const auto found = maps_.find(key); found != maps_.end()) {
-    found->second.last_use = uses_;
-    return found->second.map;
+  auto found = maps_.find(key);
+  if (found == maps_.end()) {
+    if (full()) make_room();
+    found = maps_.emplace(key, Kept{commanded, moving, nullptr, nullptr, 0, uses_}).first;
   }
-  if (full()) make_room();
+  found->second.last_use = uses_;
+  return found->second;
+}
+
+template <typename Build>
+void MapStore::build(Kept& kept, const SampledMotionPtr& commanded, const SampledMotionPtr& moving, Build&& one) {
   if (on_build_) on_build_(commanded, moving);
   const double before = stopwatch_ ? stopwatch_() : 0;
-  auto map = std::make_shared<const KeptMap>(build(*commanded, *moving, margin_));
+  const std::size_t bytes = one(*commanded, *moving);
   if (stopwatch_) build_times_.push_back(stopwatch_() - before);
   ++built_;
-  Kept kept{commanded, moving, std::move(map), 0, uses_};
-  kept.bytes = bytes_of(*kept.map);
-  bytes_ += kept.bytes;
-  return maps_.emplace(key, std::move(kept)).first->second.map;
+  kept.bytes += bytes;
+  bytes_ += bytes;
+}
+
+const std::shared_ptr<const KeptMap>& MapStore::share(const SampledMotionPtr& commanded, const SampledMotionPtr& moving) {
+  Kept& kept = entry(commanded, moving);
+  if (!kept.map) {
+    build(kept, commanded, moving, [&](SampledMotion& a, SampledMotion& b) {
+      kept.map = std::make_shared<const KeptMap>(shifts_of(a, b, margin_));
+      return bytes_of(*kept.map);
+    });
+  }
+  return kept.map;
+}
+
+const TimesInTheWay& MapStore::in_the_way(const SampledMotionPtr& commanded, const SampledMotionPtr& moving) {
+  Kept& kept = entry(commanded, moving);
+  if (!kept.in_way) {
+    build(kept, commanded, moving, [&](SampledMotion& a, SampledMotion& b) {
+      kept.in_way = std::make_shared<const TimesInTheWay>(times_in_the_way(a, b, margin_));
+      return sizeof(TimesInTheWay) + kept.in_way->times.capacity() * sizeof(kept.in_way->times.front());
+    });
+  }
+  return *kept.in_way;
 }
 
 /// First those that nobody can ask for any more; if that is not enough, the half that was not used for longest.

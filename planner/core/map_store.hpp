@@ -11,9 +11,9 @@
 
 namespace interlace::core {
 
-/// A timing map with what the search for start windows asks of it again and again.
+/// What a pair of motions forbids, as the search for start windows asks for it again and again, and the cells that show why.
 struct KeptMap {
-  TimingMap map;
+  TimingMap map;                                    ///< a shift map
   std::vector<ForbiddenShift> forbidden;            ///< united, widened by both robots' speed errors
   std::optional<std::size_t> blocked_before_start;  ///< a blocked cell in which the moving robot has not started yet
   std::vector<ForbiddenShift> passing;              ///< as `forbidden`, of the cells in which the moving robot moves
@@ -40,14 +40,18 @@ class MapStore {
   MapStore(double margin, std::function<double()> stopwatch, MapLimits limits = {})
       : margin_(margin), stopwatch_(std::move(stopwatch)), limits_(limits) {}
 
-  /// The map of `commanded` against `moving`; valid until the next call.
+  /// The map of `commanded` against `moving`; it and times in the way are valid until the next call of any of these.
   const KeptMap& get(const SampledMotionPtr& commanded, const SampledMotionPtr& moving) { return *share(commanded, moving); }
 
   /// The same for as long as it is wanted.
   const std::shared_ptr<const KeptMap>& share(const SampledMotionPtr& commanded, const SampledMotionPtr& moving);
 
+  /// When `moving` is in the way of all that `commanded` sweeps.
+  const TimesInTheWay& in_the_way(const SampledMotionPtr& commanded, const SampledMotionPtr& moving);
+
   [[nodiscard]] bool holds(const SampledMotionPtr& commanded, const SampledMotionPtr& moving) const {
-    return maps_.count({commanded->id(), moving->id()}) > 0;
+    const auto found = maps_.find({commanded->id(), moving->id()});
+    return found != maps_.end() && found->second.map;
   }
 
   /// Whether a map can be built without another one having to go.
@@ -65,13 +69,17 @@ class MapStore {
  private:
   struct Kept {
     std::weak_ptr<SampledMotion> commanded, moving;
-    std::shared_ptr<const KeptMap> map;
+    std::shared_ptr<const KeptMap> map;           // null: not asked for yet
+    std::shared_ptr<const TimesInTheWay> in_way;  // null: not asked for yet
     std::size_t bytes = 0;
     std::uint64_t last_use = 0;
   };
   using Maps = std::map<std::pair<std::uint64_t, std::uint64_t>, Kept>;
 
   [[nodiscard]] bool full() const { return maps_.size() >= limits_.maps || bytes_ >= limits_.bytes; }
+  Kept& entry(const SampledMotionPtr& commanded, const SampledMotionPtr& moving);
+  template <typename Build>
+  void build(Kept& kept, const SampledMotionPtr& commanded, const SampledMotionPtr& moving, Build&& one);
   void make_room();
   Maps::iterator drop(Maps::iterator kept);
 

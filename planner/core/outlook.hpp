@@ -177,6 +177,7 @@ class Outlook {
   }
   const Forbidden& forbidden_now(model::RobotIndex robot, const SampledMotionPtr& motion, model::RobotIndex other);
   const KeptMap& map_of(const SampledMotionPtr& motion, const SampledMotionPtr& moving);
+  std::optional<double> first_clear(const SampledMotionPtr& served, const SampledMotionPtr& way);
   Forbidden compute(model::RobotIndex robot, const SampledMotionPtr& motion, const Neighbour& other);
 
   Posture* posture_at(model::RobotIndex robot, const model::Joints& q, const model::Robot& body);

@@ -17,19 +17,6 @@ namespace {
 constexpr double kDetourBeyond = 1e-3;  // [m] a detour goes on after the last place that is in the way
 constexpr std::size_t kDetours = 3;     // of one robot for one command
 
-/// Local time from which on a robot that carries out the moving motion of `map` could stop and be clear, the earliest.
-std::optional<double> first_clear(const TimingMap& map) {
-  std::vector<std::pair<double, double>> blocked;
-  for (const BlockedCell& c : map.blocked) blocked.emplace_back(c.t0, c.t1);
-  std::sort(blocked.begin(), blocked.end());
-  double clear = 0;
-  for (const auto& [from, until] : blocked) {
-    if (from > clear) break;
-    clear = std::max(clear, until);
-  }
-  return clear > map.moving_duration ? std::nullopt : std::optional{clear};
-}
-
 }  // namespace
 
 /// Back where it came from, and home.
@@ -80,9 +67,9 @@ const std::vector<Detour>& Outlook::detours_of(RobotIndex robot, Place& place, c
   std::vector<Detour>& detours = entry->second;
   const auto add = [&](const std::vector<Way>& ways) {
     for (const Way& way : ways) {
-      const auto clear = first_clear(map_of(served, way.full).map);
-      if (!clear) continue;
       const model::Motion& full = way.full->motion();
+      const auto clear = first_clear(served, way.full);
+      if (!clear) continue;
       const double whole = full.length(full.duration());
       const double length = full.length(*clear) + kDetourBeyond;
       Detour d{way.way, way.request, way.full};

@@ -16,6 +16,13 @@ const KeptMap& Outlook::map_of(const SampledMotionPtr& motion, const SampledMoti
   return map;
 }
 
+/// Local time from which on a robot on its way could stop and be clear of all that `served` sweeps, the earliest.
+std::optional<double> Outlook::first_clear(const SampledMotionPtr& served, const SampledMotionPtr& way) {
+  const TimesInTheWay& found = maps_->in_the_way(served, way);
+  work_ += kMapWork + kEvaluationWork * found.evaluations;
+  return found.first_clear(way->motion().duration());
+}
+
 Outlook::Forbidden Outlook::compute(RobotIndex robot, const SampledMotionPtr& motion, const Neighbour& other) {
   const Candidate candidate{robot, motion, robots_[robot].tolerance};
   std::vector<RobotIndex> departures;

@@ -15,17 +15,15 @@ class ShiftCover {
   /// Forbids [from, until]; buckets that it does not fill stay as they are.
   void add(double from, double until);
 
-  /// After the last `add` and before the first `holds`.
-  void settle();
-
   /// Whether all of [from, until] is forbidden.
-  [[nodiscard]] bool holds(double from, double until) const;
+  [[nodiscard]] bool holds(double from, double until);
 
  private:
   [[nodiscard]] double bucket(double shift) const;
+  [[nodiscard]] std::size_t first_open(std::size_t from);
 
   double first_, per_second_;
-  std::vector<int> count_;  // first the changes of how many intervals fill a bucket; settled: how many buckets before this one are filled
+  std::vector<std::size_t> next_;  // of each bucket one not before it that may be open, itself if it is; the last one always is
 };
 
 }  // namespace interlace::core

@@ -14,8 +14,13 @@ Instant shifted(Instant base, double seconds, int outward) {
   return base + model::from_seconds(seconds) + Duration{outward};
 }
 
-ForbiddenShift forbidden_shift(const BlockedCell& c, double commanded_stretch, double moving_stretch) {
-  return {c.t0 * (1 - moving_stretch) - c.tau1 * (1 + commanded_stretch), c.t1 * (1 + moving_stretch) - c.tau0 * (1 - commanded_stretch)};
+/// Cells come in the order in which they were found, so that next to each other most touch.
+void add(std::vector<ForbiddenShift>& all, const ForbiddenShift& next) {
+  if (all.empty() || next.first > all.back().last || next.last < all.back().first) {
+    all.push_back(next);
+  } else {
+    all.back() = {std::min(all.back().first, next.first), std::max(all.back().last, next.last)};
+  }
 }
 
 std::vector<ForbiddenShift> united(std::vector<ForbiddenShift> all) {
@@ -35,15 +40,14 @@ std::vector<ForbiddenShift> united(std::vector<ForbiddenShift> all) {
 
 std::vector<ForbiddenShift> forbidden_shifts(const TimingMap& map, double commanded_stretch, double moving_stretch) {
   std::vector<ForbiddenShift> all;
-  all.reserve(map.blocked.size());
-  for (const BlockedCell& c : map.blocked) all.push_back(forbidden_shift(c, commanded_stretch, moving_stretch));
+  for (const BlockedCell& c : map.blocked) add(all, forbidden_shift(c, commanded_stretch, moving_stretch));
   return united(std::move(all));
 }
 
 std::vector<ForbiddenShift> forbidden_while_moving(const TimingMap& map, double commanded_stretch, double moving_stretch) {
   std::vector<ForbiddenShift> all;
   for (const BlockedCell& c : map.blocked) {
-    if (c.t0 != -kNever && c.t1 != kNever) all.push_back(forbidden_shift(c, commanded_stretch, moving_stretch));
+    if (c.t0 != -kNever && c.t1 != kNever) add(all, forbidden_shift(c, commanded_stretch, moving_stretch));
   }
   return united(std::move(all));
 }
@@ -51,7 +55,7 @@ std::vector<ForbiddenShift> forbidden_while_moving(const TimingMap& map, double 
 std::vector<ForbiddenShift> times_at_end(const TimingMap& map, double commanded_stretch) {
   std::vector<ForbiddenShift> all;
   for (const BlockedCell& c : map.blocked) {
-    if (c.t1 == kNever) all.push_back({c.tau0 * (1 - commanded_stretch), c.tau1 * (1 + commanded_stretch)});
+    if (c.t1 == kNever) add(all, {c.tau0 * (1 - commanded_stretch), c.tau1 * (1 + commanded_stretch)});
   }
   return united(std::move(all));
 }

@@ -22,13 +22,7 @@ struct ForbiddenStart {
   std::size_t cell = 0;  ///< index in the timing map: the evidence
 };
 
-/// Shifts (start of the commanded robot after the moving one's, [s]) from `first` to `last`; ±∞ where there is no end.
-struct ForbiddenShift {
-  double first = 0, last = 0;
-};
-
-/// The shifts that a map forbids, whatever the starts, in order and disjoint: a cell [t0,t1]×[τ0,τ1] forbids [t0 − τ1, t1 − τ0], widened
-/// by the relative errors of both durations.
+/// The shifts that the cells of a map forbid, in order and disjoint.
 [[nodiscard]] std::vector<ForbiddenShift> forbidden_shifts(const TimingMap& map, double commanded_stretch, double moving_stretch);
 
 /// The same of the cells in which the moving robot moves: not of those where it stands before or after.

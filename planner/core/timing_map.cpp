@@ -1,6 +1,9 @@
 #include "planner/core/timing_map.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,6 +22,9 @@ constexpr std::size_t kRoom = 1024;
 /// Width of the buckets in which forbidden shifts are counted [s]: a small part of the resolution.
 constexpr double kBucket = 0.001;
 
+/// Stands for all of the time before a motion, or after it, where times are counted [s].
+constexpr double kBeyond = 2 * kBucket;
+
 /// A part of the plane that two motions, or standing robots, make up; a standing robot's single piece stands for the times given.
 struct Panel {
   SampledMotion* own;
@@ -26,9 +32,26 @@ struct Panel {
   double tau0, tau1, t0, t1;
 };
 
+/// What a map is asked for: a cell that can say nothing new about it is left out.
+enum class Wanted : std::uint8_t {
+  cells,   // all of them
+  shifts,  // of starts, where both robots move
+  times,   // of the moving robot
+};
+
 class Subdivision {
  public:
-  Subdivision(TimingMap& map, double margin) : map_(map), margin_(margin + kRounding) {}
+  Subdivision(TimingMap& map, SampledMotion& commanded, SampledMotion& moving, double margin, Wanted wanted)
+      : map_(map),
+        wanted_(wanted),
+        commanded_stretch_(commanded.robot().controller.speed_error),
+        moving_stretch_(moving.robot().controller.speed_error),
+        margin_(margin + commanded.robot().controller.path_error + moving.robot().controller.path_error + kRounding) {
+    if (wanted == Wanted::times) known_.emplace(-kBeyond, map.moving_duration + kBeyond, kBucket);
+    if (wanted == Wanted::shifts && commanded.depth() > 0 && moving.depth() > 0) {
+      known_.emplace(-map.commanded_duration * (1 + commanded_stretch_), map.moving_duration * (1 + moving_stretch_), kBucket);
+    }
+  }
 
   /// Examines all of both motions' pieces.
   void examine(const Panel& panel) {
@@ -48,12 +71,17 @@ class Subdivision {
   void finish() {
     if (put_off_.empty()) return;
     closer_ = true;
-    ShiftCover forbidden{-map_.commanded_duration, map_.moving_duration, kBucket};
-    const auto shifts = [](const BlockedCell& c) { return std::make_pair(c.t0 - c.tau1, c.t1 - c.tau0); };
-    for (const BlockedCell& c : map_.blocked) forbidden.add(shifts(c).first, shifts(c).second);
-    forbidden.settle();
+    std::optional<ShiftCover> forbidden;
+    if (!known_) {
+      forbidden.emplace(-map_.commanded_duration, map_.moving_duration, kBucket);
+      for (const BlockedCell& c : map_.blocked) {
+        const ForbiddenShift shift = forbidden_shift(c, 0, 0);
+        forbidden->add(shift.first, shift.last);
+      }
+    }
     for (const PutOff& p : put_off_) {
-      if (forbidden.holds(shifts(p.found).first, shifts(p.found).second)) {
+      const ForbiddenShift shift = forbidden_shift(p.found, 0, 0);
+      if (forbidden && forbidden->holds(shift.first, shift.last)) {
         map_.blocked.push_back(p.found);
         continue;
       }
@@ -87,6 +115,7 @@ class Subdivision {
   /// Examines one cell for the pairs [first, last) of `open_`: those its parent could not prove apart, the parent's worst one first. Pairs
   /// that this cell cannot prove apart either are passed on behind them.
   void cell(const Place& at, std::size_t first, std::size_t last) {
+    if (is_known(at)) return;
     model::CapsuleSet own = 0;
     model::CapsuleSet other = 0;
     for (std::size_t k = first; k < last; ++k) {
@@ -156,6 +185,36 @@ class Subdivision {
   void block(const BlockedCell& found) {
     if (map_.blocked.capacity() == 0) map_.blocked.reserve(kRoom);
     map_.blocked.push_back(found);
+    if (!leaves_out()) return;
+    const auto [first, last] = says(found);
+    known_->add(first, last);
+  }
+
+  /// Whether cells may be left out where `panel_` is.
+  [[nodiscard]] bool leaves_out() const { return known_ && (wanted_ == Wanted::times || both_move()); }
+
+  [[nodiscard]] bool both_move() const { return panel_.own->depth() > 0 && panel_.other->depth() > 0; }
+
+  /// What a blocked cell says about what is wanted.
+  [[nodiscard]] std::pair<double, double> says(const BlockedCell& c) const {
+    if (wanted_ == Wanted::times) return {std::max(c.t0, -kBeyond), std::min(c.t1, map_.moving_duration + kBeyond)};
+    const ForbiddenShift shift = forbidden_shift(c, commanded_stretch_, moving_stretch_);
+    return {shift.first, shift.last};
+  }
+
+  /// Whether nothing that is found in a cell could say anything new.
+  [[nodiscard]] bool is_known(const Place& at) {
+    if (!leaves_out()) return false;
+    const auto piece = [](double duration, int level, std::size_t index) {
+      const double length = std::ldexp(duration, -level);
+      return std::make_pair(length * static_cast<double>(index), length * static_cast<double>(index + 1));
+    };
+    BlockedCell all;
+    std::tie(all.tau0, all.tau1) = piece(map_.commanded_duration, at.own_level, at.own_index);
+    std::tie(all.t0, all.t1) =
+        panel_.other->depth() == 0 ? std::make_pair(panel_.t0, panel_.t1) : piece(map_.moving_duration, at.other_level, at.other_index);
+    const auto [first, last] = says(all);
+    return known_->holds(first, last);
   }
 
   void put_off(const Place& at, const BlockedCell& found, std::size_t first, std::size_t last) {
@@ -179,7 +238,10 @@ class Subdivision {
   }
 
   TimingMap& map_;
+  Wanted wanted_;
+  double commanded_stretch_, moving_stretch_;
   double margin_;
+  std::optional<ShiftCover> known_;  // what blocked cells have said so far; empty: all of them are wanted
   Panel panel_{};
   std::vector<Panel> panels_;  // examined so far
   bool closer_ = false;        // look at pieces smaller than the resolution too
@@ -188,13 +250,11 @@ class Subdivision {
   std::vector<Pair> put_off_pairs_;
 };
 
-}  // namespace
-
-TimingMap build_timing_map(SampledMotion& commanded, SampledMotion& moving, double margin) {
+TimingMap build(SampledMotion& commanded, SampledMotion& moving, double margin, Wanted wanted) {
   TimingMap map;
   map.commanded_duration = commanded.motion().duration();
   map.moving_duration = moving.motion().duration();
-  Subdivision subdivision{map, margin + commanded.robot().controller.path_error + moving.robot().controller.path_error};
+  Subdivision subdivision{map, commanded, moving, margin, wanted};
   const double end = map.commanded_duration;
   const double other_end = map.moving_duration;
   SampledMotion& ended = commanded.at_end();
@@ -213,6 +273,34 @@ TimingMap build_timing_map(SampledMotion& commanded, SampledMotion& moving, doub
   }
   subdivision.finish();
   return map;
+}
+
+}  // namespace
+
+TimingMap build_timing_map(SampledMotion& commanded, SampledMotion& moving, double margin) {
+  return build(commanded, moving, margin, Wanted::cells);
+}
+
+TimingMap build_shift_map(SampledMotion& commanded, SampledMotion& moving, double margin) {
+  return build(commanded, moving, margin, Wanted::shifts);
+}
+
+TimesInTheWay times_in_the_way(SampledMotion& commanded, SampledMotion& moving, double margin) {
+  const TimingMap map = build(commanded, moving, margin, Wanted::times);
+  TimesInTheWay result;
+  result.evaluations = map.evaluations;
+  for (const BlockedCell& c : map.blocked) result.times.emplace_back(c.t0, c.t1);
+  std::sort(result.times.begin(), result.times.end());
+  return result;
+}
+
+std::optional<double> TimesInTheWay::first_clear(double duration) const {
+  double clear = 0;
+  for (const auto& [from, until] : times) {
+    if (from > clear) break;
+    clear = std::max(clear, until);
+  }
+  return clear > duration ? std::nullopt : std::optional{clear};
 }
 
 }  // namespace interlace::core

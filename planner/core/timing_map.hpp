@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "planner/core/sampled_motion.hpp"
@@ -19,6 +21,16 @@ struct BlockedCell {
   double clearance = 0;                        ///< of that pair at the cell's centre [m]
   double bound = 0;                            ///< how far that pair may approach inside the cell beyond its centre [m]
 };
+
+/// Shifts (start of the commanded robot after the moving one's, [s]) from `first` to `last`; ±∞ where there is no end.
+struct ForbiddenShift {
+  double first = 0, last = 0;
+};
+
+/// The shifts that a cell forbids, whatever the starts: [t0 − τ1, t1 − τ0], widened by the relative errors of both durations.
+[[nodiscard]] inline ForbiddenShift forbidden_shift(const BlockedCell& c, double commanded_stretch, double moving_stretch) {
+  return {c.t0 * (1 - moving_stretch) - c.tau1 * (1 + commanded_stretch), c.t1 * (1 + moving_stretch) - c.tau0 * (1 - commanded_stretch)};
+}
 
 /// Collision timing map of one commanded and one moving (or standing) robot, in both motions' local times, so it holds wherever the two
 /// are started. Conservative in continuous time: outside the blocked cells the clearance exceeds the margin.
@@ -37,5 +49,19 @@ struct TimingMap {
 /// commanded robot's wait before τ = 0 is not examined: its place there is already safe against everything committed. Source: dissertation
 /// section 3.2 (CTM), DESIGN section 5.
 [[nodiscard]] TimingMap build_timing_map(SampledMotion& commanded, SampledMotion& moving, double margin);
+
+/// The same for one who only asks which starts are forbidden: where both robots move, a cell all of whose shifts, widened by both robots'
+/// speed errors, others forbid already is left out. The shifts forbidden are the same, at a fraction of the distances.
+[[nodiscard]] TimingMap build_shift_map(SampledMotion& commanded, SampledMotion& moving, double margin);
+
+/// When a moving robot is where a commanded one comes by on any of its way, or stands before or after it.
+struct TimesInTheWay {
+  std::vector<std::pair<double, double>> times;  ///< local times of the moving robot [s], in order of their beginnings
+  std::size_t evaluations = 0;                   ///< distances FCL computed
+
+  /// The first time from which on it is not; empty when that is not within `duration` [s].
+  [[nodiscard]] std::optional<double> first_clear(double duration) const;
+};
+[[nodiscard]] TimesInTheWay times_in_the_way(SampledMotion& commanded, SampledMotion& moving, double margin);
 
 }  // namespace interlace::core

@@ -445,7 +445,6 @@ TEST(ShiftCover, HoldsWhatWasAddedAndNothingElse) {
       added.emplace_back(from, until);
       cover.add(from, until);
     }
-    cover.settle();
     std::sort(added.begin(), added.end());
     for (int i = 0; i < 100; ++i) {
       const double from = seed.uniform(first, last);
