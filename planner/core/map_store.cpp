@@ -36,6 +36,7 @@ MapStore::Kept& MapStore::entry(const SampledMotionPtr& commanded, const Sampled
   ++uses_;
   auto found = maps_.find(key);
   if (found == maps_.end()) {
+    if (maps_.size() >= forget_at_) forget_the_gone();
     if (full()) make_room();
     found = maps_.emplace(key, Kept{commanded, moving, nullptr, nullptr, 0, uses_}).first;
   }
@@ -76,11 +77,17 @@ const TimesInTheWay& MapStore::in_the_way(const SampledMotionPtr& commanded, con
   return *kept.in_way;
 }
 
-/// First those that nobody can ask for any more; if that is not enough, the half that was not used for longest.
-void MapStore::make_room() {
+/// Those that nobody can ask for any more.
+void MapStore::forget_the_gone() {
   for (auto it = maps_.begin(); it != maps_.end();) {
     it = it->second.commanded.expired() || it->second.moving.expired() ? drop(it) : std::next(it);
   }
+  forget_at_ = std::max(kForgetAt, 2 * maps_.size());
+}
+
+/// If it is not enough to forget those of motions that are gone, the half that was not used for longest goes.
+void MapStore::make_room() {
+  forget_the_gone();
   if (maps_.size() < limits_.maps / 2 && bytes_ < limits_.bytes / 2) return;
   std::vector<std::uint64_t> uses;
   for (const auto& [key, kept] : maps_) uses.push_back(kept.last_use);

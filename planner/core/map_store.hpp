@@ -28,7 +28,7 @@ struct MapStatistics {
 
 /// How much a store may hold.
 struct MapLimits {
-  std::size_t maps = 256;
+  std::size_t maps = 16384;
   std::size_t bytes = 64U << 20U;
 };
 
@@ -74,12 +74,14 @@ class MapStore {
     std::size_t bytes = 0;
     std::uint64_t last_use = 0;
   };
+  static constexpr std::size_t kForgetAt = 256;  // least number of maps among which those of motions that are gone are looked for
   using Maps = std::map<std::pair<std::uint64_t, std::uint64_t>, Kept>;
 
   [[nodiscard]] bool full() const { return maps_.size() >= limits_.maps || bytes_ >= limits_.bytes; }
   Kept& entry(const SampledMotionPtr& commanded, const SampledMotionPtr& moving);
   template <typename Build>
   void build(Kept& kept, const SampledMotionPtr& commanded, const SampledMotionPtr& moving, Build&& one);
+  void forget_the_gone();
   void make_room();
   Maps::iterator drop(Maps::iterator kept);
 
@@ -88,6 +90,7 @@ class MapStore {
   MapLimits limits_;
   Listener on_build_;
   Maps maps_;
+  std::size_t forget_at_ = kForgetAt;  // so many maps
   std::size_t bytes_ = 0;
   std::uint64_t uses_ = 0;
   std::size_t built_ = 0, evicted_ = 0;

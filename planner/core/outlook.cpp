@@ -39,7 +39,7 @@ std::uint64_t Outlook::look(std::vector<OutlookRobot> robots, const Timing& timi
     const model::MotionRequest* back = r.back ? &*r.back : nullptr;
     const SampledMotion& last = *r.seen.back().motion;
     roots_.push_back(place_at(i, last.motion().to(), *last.bodies().after, 0, back, false));
-    if (r.seen.back().committed && roots_.back()) roots_.back()->back = undoing(r.seen.back().motion->motion());
+    if (r.seen.back().committed) roots_.back()->back = undoing(r.seen.back().motion->motion());
   }
   return ++looks_;
 }
@@ -61,7 +61,7 @@ Outlook::Posture* Outlook::posture_at(RobotIndex robot, const model::Joints& q, 
   return &fresh;
 }
 
-/// Where `robot` stands at `q` with `done` of its commands done; null when its next one is not possible from there.
+/// Where `robot` stands at `q` with `done` of its commands done.
 Outlook::Place* Outlook::place_at(RobotIndex robot, const model::Joints& q, const model::Robot& body, std::size_t done,
                                   const model::MotionRequest* back, bool aside) {
   const auto& queue = robots_[robot].queue;
@@ -80,10 +80,10 @@ Outlook::Place* Outlook::place_at(RobotIndex robot, const model::Joints& q, cons
         entry->second = admitted(robot, command.motion->bodies(), q, command.request);
         if (entry->second && !same_place(entry->second->motion().to(), command.motion->motion().to())) entry->second = nullptr;
       }
-      if (!entry->second) return nullptr;
       place.next = entry->second;
+      place.stuck = !place.next;
     }
-    place.rest = duration_of(place.next);
+    place.rest = duration_of(place.stuck ? command.motion : place.next);
     for (std::size_t k = done + 1; k < queue.size(); ++k) place.rest += duration_of(queue[k].motion);
   }
   places_.push_back(std::move(place));

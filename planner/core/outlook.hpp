@@ -78,6 +78,10 @@ class Outlook {
   [[nodiscard]] std::optional<OutlookPlan> search(const std::optional<Instant>& no_later, const OutlookPlan* best, std::size_t budget,
                                                   MapStore& maps);
 
+  /// `plan` with its starts in another order, or without a detour, where that is better; empty when no such order is found with `budget`
+  /// work. A local search: one start after another, drawn at random, is moved to another turn, and stays there if the plan is no worse.
+  [[nodiscard]] std::optional<OutlookPlan> improve(const OutlookPlan& plan, std::size_t budget, MapStore& maps);
+
   /// A plan that is better than `plan` because somebody who would wait sets out at once instead and goes slower; empty when there is none.
   [[nodiscard]] std::optional<OutlookPlan> slowed_down(const OutlookPlan& plan, std::size_t budget, MapStore& maps);
 
@@ -88,6 +92,8 @@ class Outlook {
 
   /// Work of the last search.
   [[nodiscard]] std::size_t work() const { return work_; }
+  [[nodiscard]] std::size_t next_beam() const { return next_beam_; }
+  [[nodiscard]] std::size_t nodes() const { return nodes_.size(); }
 
  private:
   static constexpr std::size_t kBeams = 12;
@@ -118,7 +124,8 @@ class Outlook {
     Posture* posture = nullptr;
     bool aside = false;      // it came here by a detour
     std::size_t done = 0;    // commands
-    SampledMotionPtr next;   // null: none left
+    SampledMotionPtr next;   // null: none left, or
+    bool stuck = false;      // not possible from here: first it has to go somewhere else
     Duration rest{};         // all that is left to do
     Place* after = nullptr;  // the next command
     std::map<const SampledMotion*, Place*> detours;
@@ -159,6 +166,8 @@ class Outlook {
   void expand(std::size_t parent, std::size_t most_detours, std::vector<std::size_t>& commands, std::vector<std::size_t>& detours);
   std::size_t add(std::size_t parent, const Action& action, const SampledMotionPtr& motion, Place* to);
   [[nodiscard]] bool begin();
+  std::optional<std::size_t> after(std::size_t node, const PlannedStart& p);
+  [[nodiscard]] bool can_end_by(std::size_t node, Instant end) const;
   std::optional<OutlookPlan> with_slower(const OutlookPlan& plan, std::size_t which, double part);
   [[nodiscard]] static const SampledMotionPtr* kept(Posture& posture, const SampledMotionPtr& motion);
   [[nodiscard]] OutlookPlan plan_to(std::size_t node) const;

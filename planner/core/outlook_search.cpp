@@ -20,7 +20,7 @@ constexpr std::size_t kSameKept = 8;  // nodes of a beam in which all robots are
 
 bool Outlook::complete(std::size_t node) const {
   for (RobotIndex i = 0; i < robots_.size(); ++i) {
-    if (state(node, i).place->next) return false;
+    if (state(node, i).place->next || state(node, i).place->stuck) return false;
   }
   return true;
 }
@@ -67,7 +67,7 @@ void Outlook::expand(std::size_t parent, std::size_t most_detours, std::vector<s
     const auto start = start_of(parent, i, s.place->next);
     will[i] = start ? Will::go : Will::wait;
     if (!start) continue;
-    if (Place* to = after_command(i, *s.place)) commands.push_back(add(parent, {i, nullptr, i, *start}, s.place->next, to));
+    commands.push_back(add(parent, {i, nullptr, i, *start}, s.place->next, after_command(i, *s.place)));
   }
   if (nodes_[parent].detours >= most_detours) return;
   // Who waits for those that will go is not stuck.
@@ -96,7 +96,8 @@ void Outlook::expand(std::size_t parent, std::size_t most_detours, std::vector<s
         if (!start) continue;
         const Forbidden& after = forbidden(i, waiting, j, d.motion);
         if (!after.empty() && after.back().until == model::kForever) continue;
-        if (Place* to = after_detour(j, *s.place, d)) detours.push_back(add(parent, {j, &d, i, *start}, d.motion, to));
+        Place* to = after_detour(j, *s.place, d);
+        if (!to->stuck) detours.push_back(add(parent, {j, &d, i, *start}, d.motion, to));
       }
     }
   }
@@ -143,7 +144,7 @@ bool Outlook::begin() {
   nodes_[0].end = timing_.earliest;
   states_.assign(robots_.size(), {});
   for (RobotIndex i = 0; i < robots_.size(); ++i) {
-    if (!roots_[i]) return false;
+    if (roots_[i]->stuck) return false;
     states_[i].place = roots_[i];
     states_[i].free = robots_[i].free;
     if (robots_[i].seen.back().committed) nodes_[0].end = std::max(nodes_[0].end, robots_[i].free - lead_);
@@ -151,20 +152,29 @@ bool Outlook::begin() {
   return true;
 }
 
+/// The next node, in which `p`, which must stay where it is, starts as early as it can; empty when it cannot.
+std::optional<std::size_t> Outlook::after(std::size_t node, const PlannedStart& p) {
+  const RobotState s = state(node, p.robot);
+  // A way back that was planned as a detour waits in the queue once its robot has gone.
+  const Detour* detour = p.detour && !(s.place->next && same_way(*s.place->next, *p.detour->motion)) ? &*p.detour : nullptr;
+  const SampledMotionPtr* motion = detour != nullptr ? kept(*s.place->posture, detour->motion)
+                                   : p.slower        ? kept(*s.place->posture, p.slower->motion)
+                                                     : &s.place->next;
+  if (motion == nullptr || !*motion) return std::nullopt;
+  const auto start = start_of(node, p.robot, *motion);
+  if (!start) return std::nullopt;
+  Place* to = detour != nullptr ? after_detour(p.robot, *s.place, *detour) : after_command(p.robot, *s.place);
+  return add(node, {p.robot, detour, p.serves, *start, p.slower ? &*p.slower : nullptr}, *motion, to);
+}
+
 std::optional<OutlookPlan> Outlook::follow(const OutlookPlan& plan) {
   if (!begin()) return std::nullopt;
   budget_ = std::numeric_limits<std::size_t>::max();
   std::size_t node = 0;
   for (const PlannedStart& p : plan.starts) {
-    const RobotState s = state(node, p.robot);
-    const SampledMotionPtr* motion = p.detour   ? kept(*s.place->posture, p.detour->motion)
-                                     : p.slower ? kept(*s.place->posture, p.slower->motion)
-                                                : &s.place->next;
-    if (motion == nullptr || !*motion) return std::nullopt;
-    const auto start = start_of(node, p.robot, *motion);
-    Place* to = p.detour ? after_detour(p.robot, *s.place, *p.detour) : after_command(p.robot, *s.place);
-    if (!start || !to) return std::nullopt;
-    node = add(node, {p.robot, p.detour ? &*p.detour : nullptr, p.serves, *start, p.slower ? &*p.slower : nullptr}, *motion, to);
+    const auto next = after(node, p);
+    if (!next) return std::nullopt;
+    node = *next;
   }
   std::vector<std::size_t> commands, detours;
   while (!complete(node)) {  // what has come since goes as early as it can

@@ -9,6 +9,12 @@ namespace interlace::core {
 
 using model::RobotIndex;
 
+namespace {
+
+constexpr int kCoarser = 2;  // where a detour could end: a few millimetres more cost less than to find out that they are not needed
+
+}  // namespace
+
 /// Counts the same whether it is there already or not.
 const KeptMap& Outlook::map_of(const SampledMotionPtr& motion, const SampledMotionPtr& moving) {
   const KeptMap& map = maps_->get(motion, moving);
@@ -18,7 +24,7 @@ const KeptMap& Outlook::map_of(const SampledMotionPtr& motion, const SampledMoti
 
 /// Local time from which on a robot on its way could stop and be clear of all that `served` sweeps, the earliest.
 std::optional<double> Outlook::first_clear(const SampledMotionPtr& served, const SampledMotionPtr& way) {
-  const TimesInTheWay& found = maps_->in_the_way(served, way);
+  const TimesInTheWay found = times_in_the_way(*served, *way, cell_.planning.margin, kCoarser);
   work_ += kMapWork + kEvaluationWork * found.evaluations;
   return found.first_clear(way->motion().duration());
 }

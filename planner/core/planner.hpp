@@ -136,7 +136,8 @@ class Planner {
 
   // Robots: planner_robots.cpp
   void stand_at(RobotRecord& r, const model::Joints& q, Instant now, Decisions& out, bool escaped = false);
-  void put_following_back(RobotRecord& r);
+  void put_following_back(RobotRecord& r, Decisions& out);
+  void put_in_queue_again(RobotRecord& r, QueuedCommand command, model::Reason why, const std::string& text, Decisions& out);
   void put_back(RobotRecord& r, model::Reason why, const std::string& text, Decisions& out);
   void begin(RobotRecord& r, const StartInterval& start, Decisions& out);
   [[nodiscard]] static std::optional<model::ExecutionReported> unreported_outcome(const RobotRecord& r, Instant now);
@@ -188,7 +189,7 @@ class Planner {
   // Looking ahead: planner_ahead.cpp
   void serve_ahead(Instant now, Decisions& out);
   void look_ahead(Instant now);
-  void search_ahead();
+  void search_ahead(Instant now);
   void look_from(Instant now);
   [[nodiscard]] Instant free_at(const RobotRecord& r, Instant now) const;
   [[nodiscard]] OutlookRobot outlook_robot(const RobotRecord& r, Instant now) const;
@@ -201,7 +202,7 @@ class Planner {
   [[nodiscard]] bool is_relied_on(const RobotRecord& r, const std::optional<Commitment>& c) const;
   void give_up_broken_promises(Decisions& out);
   void let_others_go_first();
-  [[nodiscard]] std::optional<Instant> rehearsed_end(Instant now);
+  [[nodiscard]] std::optional<OutlookPlan> rehearse(Instant now);
 
   std::shared_ptr<const model::Cell> cell_;
   std::shared_ptr<model::Bodies> bodies_;  // copies share it: motions refer to what is in it

@@ -51,7 +51,14 @@ void Planner::serve_ahead(Instant now, Decisions& out) {
     }
     if (somebody_is_about_to_start(now)) break;
     if (!again) look_from(now);
+    if (getenv("TRACE")) {
+      auto& p = starts.front();
+      fprintf(stderr, "%.3f start fails robot %zu detour %d planned %.3f committed %d following %d again %d\n", model::to_seconds(now),
+              p.robot, p.detour.has_value(), model::to_seconds(p.start), robots_[p.robot].committed.has_value(),
+              robots_[p.robot].following.has_value(), again);
+    }
     ahead_.plan = again ? std::nullopt : ahead_.outlook->follow(*ahead_.plan);
+    if (getenv("TRACE")) fprintf(stderr, "   follow gives %d\n", ahead_.plan.has_value());
     again = true;
     if (!ahead_.plan) ahead_.event_ends.reset();
   }
@@ -93,22 +100,46 @@ void Planner::look_ahead(Instant now) {
     return;
   }
   look_from(now);
-  if (ahead_.plan) ahead_.plan = ahead_.outlook->follow(*ahead_.plan);
-  if (!ahead_.plan && !ahead_.event_ends) {
-    ahead_.event_ends = rehearsed_end(now);
-    look_from(now);
+  if (ahead_.plan) {
+    ahead_.plan = ahead_.outlook->follow(*ahead_.plan);
+    if (getenv("TRACE") && !ahead_.plan) fprintf(stderr, "%.3f look: follow lost\n", model::to_seconds(now));
   }
-  search_ahead();
+  if (!ahead_.plan && !ahead_.event_ends) {
+    const auto event = rehearse(now);
+    look_from(now);
+    if (event) {
+      ahead_.event_ends = event->end;
+      ahead_.plan = ahead_.outlook->follow(*event);
+      if (getenv("TRACE"))
+        fprintf(stderr, "rehearsed %.2f followed %.2f\n", model::to_seconds(event->end),
+                ahead_.plan ? model::to_seconds(ahead_.plan->end) : 0.0);
+    }
+  }
+  search_ahead(now);
 }
 
 /// Puts one decision's work into a better plan.
-void Planner::search_ahead() {
+void Planner::search_ahead(Instant now) {
   // While all stand there is nothing to be late for.
   const double budget = cell_->planning.budget * kWorkPerSecond * (all_stand() ? kFirstLook : 1);
   const auto no_later = ahead_.plan ? std::nullopt : ahead_.event_ends;
-  auto better = ahead_.outlook->search(no_later, ahead_.plan ? &*ahead_.plan : nullptr, static_cast<std::size_t>(budget), maps_);
+  const double bs = getenv("SEARCH") ? atof(getenv("SEARCH")) : 1;
+  auto better = ahead_.outlook->search(no_later, ahead_.plan ? &*ahead_.plan : nullptr,
+                                       static_cast<std::size_t>(budget * (ahead_.plan ? bs : 1)), maps_);
   if (better && (!no_later || better->end < *no_later)) ahead_.plan = std::move(better);
+  if (getenv("TRACE"))
+    fprintf(stderr, "%.2f plan %.2f event %.2f starts %zu work %zu exhausted %d beam %zu nodes %zu detours %zu stand %d\n",
+            model::to_seconds(now.time_since_epoch()), ahead_.plan ? model::to_seconds(ahead_.plan->end.time_since_epoch()) : 0,
+            ahead_.event_ends ? model::to_seconds(ahead_.event_ends->time_since_epoch()) : 0, ahead_.plan ? ahead_.plan->starts.size() : 0,
+            ahead_.outlook->work(), ahead_.outlook->exhausted(), ahead_.outlook->next_beam(), ahead_.outlook->nodes(),
+            ahead_.plan ? static_cast<std::size_t>(std::count_if(ahead_.plan->starts.begin(), ahead_.plan->starts.end(),
+                                                                 [](auto& s) { return s.detour.has_value(); }))
+                        : std::size_t{0},
+            all_stand());
   if (!ahead_.plan) return;
+  const double share = getenv("IMPROVE") ? atof(getenv("IMPROVE")) : 0;
+  if (auto other = share > 0 ? ahead_.outlook->improve(*ahead_.plan, static_cast<std::size_t>(share * budget), maps_) : std::nullopt)
+    ahead_.plan = std::move(other);
   if (auto slower = ahead_.outlook->slowed_down(*ahead_.plan, static_cast<std::size_t>(budget), maps_)) ahead_.plan = std::move(slower);
 }
 
@@ -124,9 +155,11 @@ bool Planner::somebody_is_about_to_start(Instant now) const {
 /// Makes a planned start a fact when it is as early as planned. One that others rely on may be that before its time has come.
 bool Planner::start_as_planned(const PlannedStart& planned, Instant now, Decisions& out) {
   RobotRecord& r = robots_[planned.robot];
-  if (r.following || r.lost() || !r.ready || (r.committed && planned.detour)) return false;
-  if (!planned.detour && !r.next()) return false;
-  const SampledMotionPtr motion = planned.detour ? planned.detour->motion : planned.slower ? planned.slower->motion : r.next()->motion;
+  const bool waits = planned.detour && r.next() && same_way(*r.next()->motion, *planned.detour->motion);  // a way back that was a detour
+  const Detour* detour = planned.detour && !waits ? &*planned.detour : nullptr;
+  if (r.following || r.lost() || !r.ready || (detour == nullptr && !r.next())) return false;
+  if (detour != nullptr && !same_place(detour->motion->motion().from(), r.joints_after_motion())) return false;
+  const SampledMotionPtr motion = detour != nullptr ? detour->motion : planned.slower ? planned.slower->motion : r.next()->motion;
   const Candidate candidate = candidate_of(r, motion);
   Timing timing = timing_ahead(now);
   timing.earliest = std::max(timing.earliest, free_at(r, now));
@@ -140,11 +173,11 @@ bool Planner::start_as_planned(const PlannedStart& planned, Instant now, Decisio
     return o.following || departures_of(last) != Departures::met;
   });
   if (relies_in_vain) return false;
-  if (planned.detour) {
+  if (detour != nullptr) {
     const RobotRecord& served = robots_[planned.serves];
     if (!served.next()) return false;
-    const Detour& d = *planned.detour;
-    commit_escape({planned.robot, d.way, d.request, d.motion, candidate.tolerance, {}, std::move(a)}, served_by(*served.next()), now, out);
+    commit_escape({planned.robot, detour->way, detour->request, detour->motion, candidate.tolerance, {}, std::move(a)},
+                  served_by(*served.next()), now, out);
     return true;
   }
   std::string text;

@@ -231,7 +231,7 @@ bool Planner::cancel(RobotRecord& r, const model::CommandId& id, Decisions& out)
   }
   if (r.following && r.following->command.status.id == id) {
     if (relying_on(r, *r.following, true) != nullptr) return false;
-    put_following_back(r);
+    put_following_back(r, out);
     return cancel(r, id, out);
   }
   if (!r.committed || r.committed->command.status.id != id || r.committed->phase == Commitment::Phase::started) return false;
@@ -301,7 +301,7 @@ Decisions Planner::on(const model::StopRequested& event, Instant now) {
   RobotRecord& r = *asked;
   // A departure that somebody under way relies on is not given up: the robot stops where that leads.
   const bool relied_on = is_relied_on(r, r.following);
-  if (r.following && !relied_on) put_following_back(r);
+  if (r.following && !relied_on) put_following_back(r, out);
   std::size_t given_up = r.queue.size();
   drop_escapes(r, out);
   while (!r.queue.empty()) cancel(r, model::CommandId{r.queue.back().status.id}, out);

@@ -61,7 +61,7 @@ void Planner::scene_is_new() {
 void Planner::hold(RobotRecord& r, Decisions& out) {
   r.held = true;
   changed(r);
-  if (r.following && !is_relied_on(r, r.following)) put_following_back(r);
+  if (r.following && !is_relied_on(r, r.following)) put_following_back(r, out);
   const bool not_begun = r.committed && !is_relied_on(r, r.committed);
   if (not_begun && r.committed->phase == Commitment::Phase::held) {
     put_back(r, Reason::held, held_text(r), out);
@@ -179,7 +179,7 @@ Decisions Planner::on(const model::QueueReplaced& event, Instant now) {
     return out;
   }
   // What is decided but not told to anybody is part of the queue; what was told counts as being done.
-  if (r.following && !is_relied_on(r, r.following)) put_following_back(r);
+  if (r.following && !is_relied_on(r, r.following)) put_following_back(r, out);
   if (r.committed && r.committed->phase == Commitment::Phase::held && !is_relied_on(r, r.committed)) put_back(r, Reason::none, {}, out);
   std::deque<QueuedCommand> commands;
   for (const model::CommandSubmitted& c : event.commands) {

@@ -143,6 +143,7 @@ void Planner::commit_escape(PlannedMotion e, const model::CommandId& serves, Ins
   RobotRecord& b = robots_[e.robot];
   QueuedCommand escape;
   escape.origin = QueuedCommand::Origin::escape;
+  escape.way = e.way;
   escape.status.id = model::CommandId{options_.escape_prefix + std::to_string(++last_escape_)};
   escape.status.robot = b.robot->name;
   escape.status.escape = true;

@@ -18,8 +18,8 @@ struct Doing {
 
 }  // namespace
 
-/// When all commands would be done; empty when they would not all be, or when it takes too long to tell.
-std::optional<Instant> Planner::rehearsed_end(Instant now) {
+/// All starts that are not decided yet, until all commands are done; empty when they would not all be, or when it takes too long to tell.
+std::optional<OutlookPlan> Planner::rehearse(Instant now) {
   MapStore maps = std::move(maps_);
   auto known = std::exchange(known_, {});
   auto finished = std::exchange(finished_, {});
@@ -50,8 +50,30 @@ std::optional<Instant> Planner::rehearsed_end(Instant now) {
     if (r.committed && r.committed->phase != Commitment::Phase::held) take_up(i, r.committed->start_from);
   }
   bool as_told = true;
+  OutlookPlan plan;
+  const auto note = [&](model::RobotIndex i) {
+    const Commitment& c = *copy.robots_[i].committed;
+    if (c.serial <= robots_[i].last_serial || c.command.attempts > 1) return;
+    PlannedStart s;
+    s.robot = i;
+    s.start = c.start_from;
+    s.serves = i;
+    if (c.command.origin != QueuedCommand::Origin::client) {
+      s.detour = Detour{c.command.way, c.command.request, c.command.motion};
+      const auto is_served = [&](const RobotRecord& r) {
+        return std::any_of(r.queue.begin(), r.queue.end(), [&](const auto& q) { return q.status.id == c.command.status.serves; });
+      };
+      const auto served = std::find_if(robots_.begin(), robots_.end(), is_served);
+      if (served != robots_.end()) s.serves = index_of(*served);
+    }
+    plan.starts.push_back(std::move(s));
+  };
   const auto obey = [&](const Decisions& decided) {
-    for (const model::Dispatch& d : decided.dispatches) take_up(cell_->find(d.robot).value(), d.earliest);
+    for (const model::Dispatch& d : decided.dispatches) {
+      const model::RobotIndex i = cell_->find(d.robot).value();
+      take_up(i, d.earliest);
+      note(i);
+    }
     as_told = as_told && decided.withdrawals.empty();
   };
   const auto report = [&](Doing& d, model::ExecutionState state, Instant at) {
@@ -59,7 +81,7 @@ std::optional<Instant> Planner::rehearsed_end(Instant now) {
     d.report.at = at;
     obey(copy.on(model::ExecutionReported{d.report}, at));
   };
-  Instant last = now;
+  plan.end = now;
   obey(copy.advance(now));
   std::size_t steps = kStepsPerCommand * commands;
   for (Instant t = now; as_told && steps > 0; --steps) {
@@ -73,7 +95,7 @@ std::optional<Instant> Planner::rehearsed_end(Instant now) {
     for (auto& d : doing) {
       if (!d || !d->told || d->end > t) continue;
       Doing over = *std::exchange(d, std::nullopt);
-      last = std::max(last, t);
+      plan.end = std::max(plan.end, t);
       report(over, model::ExecutionState::completed, t);
     }
     for (auto& d : doing) {
@@ -88,7 +110,8 @@ std::optional<Instant> Planner::rehearsed_end(Instant now) {
       std::none_of(copy.robots_.begin(), copy.robots_.end(), [](const RobotRecord& r) { return r.committed || r.next(); });
   maps_ = std::move(copy.maps_);
   if (!as_told || !all_done) return std::nullopt;
-  return last;
+  std::stable_sort(plan.starts.begin(), plan.starts.end(), [](const auto& a, const auto& b) { return a.start < b.start; });
+  return plan;
 }
 
 }  // namespace interlace::core

@@ -65,31 +65,28 @@ void Planner::stand_at(RobotRecord& r, const model::Joints& q, Instant now, Deci
 }
 
 /// What was to follow waits again: it was decided for a place the robot may not come to.
-void Planner::put_following_back(RobotRecord& r) {
+void Planner::put_following_back(RobotRecord& r, Decisions& out) {
   QueuedCommand command = std::move(r.following->command);
-  at_full_speed(command);
   r.following.reset();
-  changed(r);
-  command.status.state = CommandState::queued;
-  command.status.reason = Reason::none;
-  command.status.text.clear();
-  command.status.start.reset();
-  command.status.end.reset();
-  command.status.conflicts.clear();
-  r.queue.push_front(std::move(command));
+  put_in_queue_again(r, std::move(command), Reason::none, {}, out);
 }
 
 void Planner::put_back(RobotRecord& r, Reason why, const std::string& text, Decisions& out) {
-  if (r.following) put_following_back(r);
+  if (r.following) put_following_back(r, out);
   QueuedCommand command = std::move(r.committed->command);
-  at_full_speed(command);
   r.committed.reset();
+  put_in_queue_again(r, std::move(command), why, text, out);
+}
+
+/// A command that was decided and will not start as that. An escape is given up: what it made room for is planned anew, and may need
+/// another one or none.
+void Planner::put_in_queue_again(RobotRecord& r, QueuedCommand command, Reason why, const std::string& text, Decisions& out) {
+  at_full_speed(command);
   command.status.start.reset();
   command.status.end.reset();
   command.status.conflicts.clear();
   changed(r);
   if (command.origin == QueuedCommand::Origin::escape) {
-    // What it made room for is planned anew, and may need another escape or none.
     command.status.state = CommandState::cancelled;
     command.status.text = why == Reason::none ? "no longer needed" : text;
     publish(command.status, out);
@@ -109,7 +106,7 @@ void Planner::revoke_dependents(model::RobotIndex robot, Decisions& out) {
   for (model::RobotIndex i = 0; i < robots_.size(); ++i) {
     RobotRecord& r = robots_[i];
     if (!r.committed || !neighbourhood_.meet(i, robot)) continue;
-    if (r.following) put_following_back(r);
+    if (r.following) put_following_back(r, out);
     if (r.committed->phase == Commitment::Phase::started) continue;
     const SampledMotionPtr theirs = robots_[robot].committed ? robots_[robot].committed->command.motion : robots_[robot].standing;
     const bool meets = robots_[robot].lost() ? enters_reach(*r.committed->command.motion, robots_[robot].reach)
@@ -279,7 +276,7 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
       }
       r.known_at = std::max(r.known_at, std::min(event.at, now));
       if (arrived && motion.duration() > 0) r.standing = c.command.motion->standing_at_end();
-      if (r.following && !as_promised) put_following_back(r);
+      if (r.following && !as_promised) put_following_back(r, out);
       r.committed = std::move(r.following);
       r.following.reset();
       stand_at(r, arrived ? promised : event.joints, now, out, origin != QueuedCommand::Origin::client);
@@ -314,7 +311,7 @@ Decisions Planner::on(const model::ExecutionReported& event, Instant now) {
       r.known_at = std::max(r.known_at, std::min(event.at, now));
       r.way_back.clear();
       r.trail.clear();
-      if (r.following) put_following_back(r);
+      if (r.following) put_following_back(r, out);
       r.committed.reset();
       r.tools = cell_->set_of(event.holds);
       stand_at(r, event.joints, now, out);

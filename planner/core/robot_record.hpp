@@ -15,6 +15,7 @@ struct QueuedCommand {
     way_back  ///< to where the robot was before it escaped, because its next command is possible only from there
   };
   Origin origin = Origin::client;
+  model::EscapeWay way = model::EscapeWay::retreat;  ///< of an escape
   model::CommandStatus status;
   model::MotionRequest request;
   int priority = 0;

@@ -41,9 +41,10 @@ enum class Wanted : std::uint8_t {
 
 class Subdivision {
  public:
-  Subdivision(TimingMap& map, SampledMotion& commanded, SampledMotion& moving, double margin, Wanted wanted)
+  Subdivision(TimingMap& map, SampledMotion& commanded, SampledMotion& moving, double margin, Wanted wanted, int coarser)
       : map_(map),
         wanted_(wanted),
+        coarser_(coarser),
         commanded_stretch_(commanded.robot().controller.speed_error),
         moving_stretch_(moving.robot().controller.speed_error),
         margin_(margin + commanded.robot().controller.path_error + moving.robot().controller.path_error + kRounding) {
@@ -81,7 +82,7 @@ class Subdivision {
     }
     for (const PutOff& p : put_off_) {
       const ForbiddenShift shift = forbidden_shift(p.found, 0, 0);
-      if (forbidden && forbidden->holds(shift.first, shift.last)) {
+      if (wanted_ == Wanted::times || (forbidden && forbidden->holds(shift.first, shift.last))) {
         map_.blocked.push_back(p.found);
         continue;
       }
@@ -124,7 +125,7 @@ class Subdivision {
     }
     const SampledMotion::Piece& a = panel_.own->piece(at.own_level, at.own_index, own);
     const SampledMotion::Piece& b = panel_.other->piece(at.other_level, at.other_index, other);
-    const bool at_resolution = at.own_level >= panel_.own->depth() && at.other_level >= panel_.other->depth();
+    const bool at_resolution = at.own_level >= deepest(*panel_.own) && at.other_level >= deepest(*panel_.other);
     bool blocked = false;                       // dividing it gains nothing
     double least = kNever;                      // of clearance minus bound over the pairs that are not proven apart
     std::size_t worst = last, reached = first;  // the pair of `least`; the last one looked at
@@ -169,8 +170,8 @@ class Subdivision {
   /// Examines the halves of a cell for the pairs from `first` on. False when it cannot be divided.
   bool divide(const Place& at, bool at_resolution, bool own_is_farther, std::size_t first) {
     const std::size_t last = open_.size();
-    const bool own_splits = at.own_level < (at_resolution ? panel_.own->finest() : panel_.own->depth());
-    const bool other_splits = at.other_level < (at_resolution ? panel_.other->finest() : panel_.other->depth());
+    const bool own_splits = at.own_level < (at_resolution ? panel_.own->finest() : deepest(*panel_.own));
+    const bool other_splits = at.other_level < (at_resolution ? panel_.other->finest() : deepest(*panel_.other));
     if (own_splits && (own_is_farther || !other_splits)) {
       cell({at.own_level + 1, 2 * at.own_index, at.other_level, at.other_index}, first, last);
       cell({at.own_level + 1, 2 * at.own_index + 1, at.other_level, at.other_index}, first, last);
@@ -192,6 +193,8 @@ class Subdivision {
 
   /// Whether cells may be left out where `panel_` is.
   [[nodiscard]] bool leaves_out() const { return known_ && (wanted_ == Wanted::times || both_move()); }
+
+  [[nodiscard]] int deepest(const SampledMotion& m) const { return std::max(m.depth() - coarser_, 0); }
 
   [[nodiscard]] bool both_move() const { return panel_.own->depth() > 0 && panel_.other->depth() > 0; }
 
@@ -239,6 +242,7 @@ class Subdivision {
 
   TimingMap& map_;
   Wanted wanted_;
+  int coarser_;  // halvings fewer than down to the resolution
   double commanded_stretch_, moving_stretch_;
   double margin_;
   std::optional<ShiftCover> known_;  // what blocked cells have said so far; empty: all of them are wanted
@@ -250,11 +254,11 @@ class Subdivision {
   std::vector<Pair> put_off_pairs_;
 };
 
-TimingMap build(SampledMotion& commanded, SampledMotion& moving, double margin, Wanted wanted) {
+TimingMap build(SampledMotion& commanded, SampledMotion& moving, double margin, Wanted wanted, int coarser = 0) {
   TimingMap map;
   map.commanded_duration = commanded.motion().duration();
   map.moving_duration = moving.motion().duration();
-  Subdivision subdivision{map, commanded, moving, margin, wanted};
+  Subdivision subdivision{map, commanded, moving, margin, wanted, coarser};
   const double end = map.commanded_duration;
   const double other_end = map.moving_duration;
   SampledMotion& ended = commanded.at_end();
@@ -285,8 +289,8 @@ TimingMap build_shift_map(SampledMotion& commanded, SampledMotion& moving, doubl
   return build(commanded, moving, margin, Wanted::shifts);
 }
 
-TimesInTheWay times_in_the_way(SampledMotion& commanded, SampledMotion& moving, double margin) {
-  const TimingMap map = build(commanded, moving, margin, Wanted::times);
+TimesInTheWay times_in_the_way(SampledMotion& commanded, SampledMotion& moving, double margin, int coarser) {
+  const TimingMap map = build(commanded, moving, margin, Wanted::times, coarser);
   TimesInTheWay result;
   result.evaluations = map.evaluations;
   for (const BlockedCell& c : map.blocked) result.times.emplace_back(c.t0, c.t1);

@@ -62,6 +62,8 @@ struct TimesInTheWay {
   /// The first time from which on it is not; empty when that is not within `duration` [s].
   [[nodiscard]] std::optional<double> first_clear(double duration) const;
 };
-[[nodiscard]] TimesInTheWay times_in_the_way(SampledMotion& commanded, SampledMotion& moving, double margin);
+
+/// Conservative, and the more so, and found the sooner, with `coarser` halvings fewer than down to the resolution.
+[[nodiscard]] TimesInTheWay times_in_the_way(SampledMotion& commanded, SampledMotion& moving, double margin, int coarser = 0);
 
 }  // namespace interlace::core
