@@ -13,7 +13,7 @@ using model::RobotIndex;
 
 namespace {
 
-constexpr std::size_t kMotionsKept = 2048;  // of whose pairs the intervals are kept
+constexpr std::uint64_t kLooksKept = 16;  // after which a place nobody came to is forgotten
 
 }  // namespace
 
@@ -25,10 +25,8 @@ std::uint64_t Outlook::look(std::vector<OutlookRobot> robots, const Timing& timi
   timing_ = timing;
   lead_ = lead;
   maps_ = &maps;
-  if (forbidden_.size() > kMotionsKept) forbidden_.clear();
-  for (auto& of_robot : postures_) {
-    if (of_robot.size() > kMotionsKept) of_robot.clear();
-  }
+  ++looks_;
+  forget_the_gone();
   forbidden_now_.assign(robots_.size(), {});
   places_.clear();
   roots_.clear();
@@ -41,21 +39,35 @@ std::uint64_t Outlook::look(std::vector<OutlookRobot> robots, const Timing& timi
     roots_.push_back(place_at(i, last.motion().to(), *last.bodies().after, 0, back, false));
     if (r.seen.back().committed) roots_.back()->back = undoing(r.seen.back().motion->motion());
   }
-  return ++looks_;
+  return looks_;
 }
 
 SampledMotionPtr Outlook::admitted(RobotIndex robot, const model::MotionBodies& bodies, const model::Joints& from,
                                    const model::MotionRequest& request) {
-  work_ += kAdmitWork;
+  map_work_ += kAdmitWork;
   auto motion = admit(cell_, robot, bodies, from, request);
   return motion ? *motion : nullptr;
+}
+
+/// Places that nobody came to for long, and what was known of motions that are gone. Wishes are of the last search: they point to places
+/// that stay.
+void Outlook::forget_the_gone() {
+  for (auto& of_robot : postures_) {
+    of_robot.remove_if([&](const Posture& p) { return p.looked + kLooksKept < looks_; });
+  }
+  last_row_ = nullptr;
+  for (auto it = forbidden_.begin(); it != forbidden_.end();) it = it->second.motion.expired() ? forbidden_.erase(it) : std::next(it);
 }
 
 Outlook::Posture* Outlook::posture_at(RobotIndex robot, const model::Joints& q, const model::Robot& body) {
   auto& known = postures_[robot];
   const auto found = std::find_if(known.begin(), known.end(), [&](const Posture& p) { return p.body == &body && same_place(p.q, q); });
-  if (found != known.end()) return &*found;
+  if (found != known.end()) {
+    found->looked = looks_;
+    return &*found;
+  }
   Posture& fresh = known.emplace_back();
+  fresh.looked = looks_;
   fresh.q = q;
   fresh.body = &body;
   return &fresh;
@@ -86,6 +98,7 @@ Outlook::Place* Outlook::place_at(RobotIndex robot, const model::Joints& q, cons
     place.rest = duration_of(place.stuck ? command.motion : place.next);
     for (std::size_t k = done + 1; k < queue.size(); ++k) place.rest += duration_of(queue[k].motion);
   }
+  place.number = places_.size();
   places_.push_back(std::move(place));
   return &places_.back();
 }

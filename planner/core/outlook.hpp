@@ -3,10 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <unordered_map>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "common/model/cell.hpp"
@@ -73,14 +77,21 @@ class Outlook {
   /// The starts of `plan` in their order, from how things are; empty when they are no longer possible, or not all.
   [[nodiscard]] std::optional<OutlookPlan> follow(const OutlookPlan& plan);
 
-  /// A plan that is better than `best` and ends no later than `no_later`, where these are given; empty when none is found with `budget`
-  /// work. The next search from the same state goes on where this one stopped, with wider beams and more detours.
-  [[nodiscard]] std::optional<OutlookPlan> search(const std::optional<Instant>& no_later, const OutlookPlan* best, std::size_t budget,
+  /// What a search may spend.
+  struct Budget {
+    std::size_t work = 0;    ///< in all
+    std::size_t maps = 0;    ///< of that, on what it has to find out about motions; beyond it, it wishes to know and goes on without
+    std::size_t grants = 0;  ///< pairs of motions the last search wished to know about, and which this one knows
+  };
+
+  /// A plan that is better than `best` and ends no later than `no_later`, where these are given; empty when none is found. The next search
+  /// from the same state goes on where this one stopped, with wider beams and more detours.
+  [[nodiscard]] std::optional<OutlookPlan> search(const std::optional<Instant>& no_later, const OutlookPlan* best, const Budget& budget,
                                                   MapStore& maps);
 
-  /// `plan` with its starts in another order, or without a detour, where that is better; empty when no such order is found with `budget`
-  /// work. A local search: one start after another, drawn at random, is moved to another turn, and stays there if the plan is no worse.
-  [[nodiscard]] std::optional<OutlookPlan> improve(const OutlookPlan& plan, std::size_t budget, MapStore& maps);
+  /// Between searches: finds out the next thing that the last one wished to know. False when there is none. What the next one knows depends
+  /// on its grants alone, not on how much was found out in time.
+  bool prepare(MapStore& maps);
 
   /// A plan that is better than `plan` because somebody who would wait sets out at once instead and goes slower; empty when there is none.
   [[nodiscard]] std::optional<OutlookPlan> slowed_down(const OutlookPlan& plan, std::size_t budget, MapStore& maps);
@@ -92,8 +103,6 @@ class Outlook {
 
   /// Work of the last search.
   [[nodiscard]] std::size_t work() const { return work_; }
-  [[nodiscard]] std::size_t next_beam() const { return next_beam_; }
-  [[nodiscard]] std::size_t nodes() const { return nodes_.size(); }
 
  private:
   static constexpr std::size_t kBeams = 12;
@@ -101,8 +110,9 @@ class Outlook {
   /// When a motion forbids another to start, after its own start.
   using Forbidden = std::vector<StartInterval>;
   struct Pair {
-    Forbidden forbidden;  // with the other standing where it was before, for good
-    KeptMap map;          // without its cells
+    Forbidden forbidden;   // with the other standing where it was before, for good
+    KeptMap map;           // without its cells
+    bool unknown = false;  // and so forbidden
   };
   /// A way out of a place and how far it leads.
   struct Way {
@@ -114,13 +124,33 @@ class Outlook {
   struct Posture {
     model::Joints q;
     const model::Robot* body = nullptr;  // with what it holds
+    std::uint64_t looked = 0;            // when it was last come to
     std::optional<std::vector<Way>> known, sought;
     std::map<std::uint64_t, std::vector<Detour>> detours;  // by the motion that room is made for
     std::deque<SampledMotionPtr> followed;                 // of plans: detours whose own place is gone, and slower commands
     std::map<std::uint64_t, SampledMotionPtr> from_here;   // commands by the motion they are from elsewhere; null: not possible
   };
+  /// What others forbid a motion, by theirs.
+  struct Row {
+    std::weak_ptr<SampledMotion> motion;
+    std::unordered_map<std::uint64_t, Pair> with;
+  };
+  struct PairWish {
+    model::RobotIndex robot, other;
+    SampledMotionPtr motion, moving;
+    std::optional<Pair> pair;
+  };
+  struct DetourWish {
+    model::RobotIndex robot;
+    Posture* posture;
+    std::optional<model::MotionRequest> back;
+    SampledMotionPtr served;
+    std::optional<std::vector<Detour>> detours;
+  };
+  using Wish = std::variant<PairWish, DetourWish>;
   /// Where a robot stands with how many commands done.
   struct Place {
+    std::size_t number = 0;  // among all places
     Posture* posture = nullptr;
     bool aside = false;      // it came here by a detour
     std::size_t done = 0;    // commands
@@ -167,7 +197,6 @@ class Outlook {
   std::size_t add(std::size_t parent, const Action& action, const SampledMotionPtr& motion, Place* to);
   [[nodiscard]] bool begin();
   std::optional<std::size_t> after(std::size_t node, const PlannedStart& p);
-  [[nodiscard]] bool can_end_by(std::size_t node, Instant end) const;
   std::optional<OutlookPlan> with_slower(const OutlookPlan& plan, std::size_t which, double part);
   [[nodiscard]] static const SampledMotionPtr* kept(Posture& posture, const SampledMotionPtr& motion);
   [[nodiscard]] OutlookPlan plan_to(std::size_t node) const;
@@ -184,6 +213,8 @@ class Outlook {
                              const SampledMotionPtr& moving) {
     return pair(robot, motion, other, moving).forbidden;
   }
+  Row& row_of(const SampledMotionPtr& motion);
+  Pair make_pair(model::RobotIndex robot, const SampledMotionPtr& motion, model::RobotIndex other, const SampledMotionPtr& moving);
   const Forbidden& forbidden_now(model::RobotIndex robot, const SampledMotionPtr& motion, model::RobotIndex other);
   const KeptMap& map_of(const SampledMotionPtr& motion, const SampledMotionPtr& moving);
   std::optional<double> first_clear(const SampledMotionPtr& served, const SampledMotionPtr& way);
@@ -195,15 +226,26 @@ class Outlook {
   Place* after_command(model::RobotIndex robot, Place& place);
   Place* after_detour(model::RobotIndex robot, Place& place, const Detour& detour);
   const std::vector<Detour>& detours_of(model::RobotIndex robot, Place& place, const SampledMotionPtr& served);
-  const std::vector<Way>& ways_known(model::RobotIndex robot, Place& place);
-  const std::vector<Way>& ways_sought(model::RobotIndex robot, Place& place);
+  std::vector<Detour> find_detours(model::RobotIndex robot, Posture& posture, const std::optional<model::MotionRequest>& back,
+                                   const SampledMotionPtr& served);
+  const std::vector<Way>& ways_known(model::RobotIndex robot, Posture& posture, const std::optional<model::MotionRequest>& back);
+  const std::vector<Way>& ways_sought(model::RobotIndex robot, Posture& posture);
+
+  [[nodiscard]] bool may_find_out() const { return map_work_ < map_budget_; }
+  void find_out_everything();
+  void wish(Wish wish);
+  void fulfil(Wish& wish);
+  void grant(std::size_t grants);
+  void forget_the_gone();
   SampledMotionPtr admitted(model::RobotIndex robot, const model::MotionBodies& bodies, const model::Joints& from,
                             const model::MotionRequest& request);
 
   const model::Cell& cell_;
   Neighbourhood neighbourhood_;
-  std::vector<std::deque<Posture>> postures_;                                             // by robot; kept
-  std::unordered_map<std::uint64_t, std::unordered_map<std::uint64_t, Pair>> forbidden_;  // by own and other motion; kept
+  std::vector<std::list<Posture>> postures_;          // by robot; kept while they are come to now and then
+  std::unordered_map<std::uint64_t, Row> forbidden_;  // by own motion; kept while it lives
+  Row* last_row_ = nullptr;                           // that was asked for
+  std::uint64_t last_row_id_ = 0;
   std::vector<OutlookRobot> robots_;
   Timing timing_;
   Duration lead_{};
@@ -217,6 +259,10 @@ class Outlook {
   std::size_t next_beam_ = 0;
   std::optional<std::size_t> settled_;  // with so many detours everything was tried
   std::size_t work_ = 0, budget_ = 0;
+  std::size_t map_work_ = 0, map_budget_ = 0;
+  std::deque<Wish> wishes_;                                 // of the last search, the first ones first
+  std::set<std::pair<std::uint64_t, const void*>> wished_;  // what for
+  std::size_t next_wish_ = 0;                               // to prepare
 };
 
 }  // namespace interlace::core

@@ -20,17 +20,17 @@ constexpr std::size_t kDetours = 3;     // of one robot for one command
 }  // namespace
 
 /// Back where it came from, and home.
-const std::vector<Outlook::Way>& Outlook::ways_known(RobotIndex robot, Place& place) {
-  auto& ways = place.posture->known;
+const std::vector<Outlook::Way>& Outlook::ways_known(RobotIndex robot, Posture& posture, const std::optional<model::MotionRequest>& back) {
+  auto& ways = posture.known;
   if (ways) return *ways;
   ways.emplace();
-  const auto body = model::MotionBodies::unchanged(*place.posture->body);
+  const auto body = model::MotionBodies::unchanged(*posture.body);
   const auto add = [&](EscapeWay way, const model::MotionRequest& request) {
-    auto motion = admitted(robot, body, place.posture->q, request);
+    auto motion = admitted(robot, body, posture.q, request);
     if (motion && motion->motion().duration() > 0) ways->push_back({way, request, std::move(motion)});
   };
   const model::Robot& r = cell_.robots[robot];
-  if (place.back) add(EscapeWay::retreat, *place.back);
+  if (back) add(EscapeWay::retreat, *back);
   model::MotionRequest home;
   home.target = model::LinearTarget{r.X_WB * model::tcp_pose(r.model, r.home)};
   add(EscapeWay::home, home);
@@ -42,8 +42,8 @@ const std::vector<Outlook::Way>& Outlook::ways_known(RobotIndex robot, Place& pl
 }
 
 /// To the border of the workspace: it takes much longer to find out how far that is.
-const std::vector<Outlook::Way>& Outlook::ways_sought(RobotIndex robot, Place& place) {
-  auto& ways = place.posture->sought;
+const std::vector<Outlook::Way>& Outlook::ways_sought(RobotIndex robot, Posture& posture) {
+  auto& ways = posture.sought;
   if (ways) return *ways;
   ways.emplace();
   const std::array<std::pair<EscapeWay, Vector3>, 6> directions{{{EscapeWay::plus_x, Vector3::UnitX()},
@@ -53,8 +53,8 @@ const std::vector<Outlook::Way>& Outlook::ways_sought(RobotIndex robot, Place& p
                                                                  {EscapeWay::plus_z, Vector3::UnitZ()},
                                                                  {EscapeWay::minus_z, -Vector3::UnitZ()}}};
   for (const auto& [way, unit] : directions) {
-    work_ += kReachWork;
-    auto full = to_reachable_goal(cell_, robot, *place.posture->body, place.posture->q, unit);
+    map_work_ += kReachWork;
+    auto full = to_reachable_goal(cell_, robot, *posture.body, posture.q, unit);
     if (full.motion) ways->push_back({way, full.request, std::move(full.motion)});
   }
   return *ways;
@@ -62,9 +62,17 @@ const std::vector<Outlook::Way>& Outlook::ways_sought(RobotIndex robot, Place& p
 
 /// Ways for `robot` from where it stands to the first place clear of all that `served` sweeps, the shortest first.
 const std::vector<Detour>& Outlook::detours_of(RobotIndex robot, Place& place, const SampledMotionPtr& served) {
-  auto [entry, fresh] = place.posture->detours.try_emplace(served->id());
-  if (!fresh) return entry->second;
-  std::vector<Detour>& detours = entry->second;
+  auto& known = place.posture->detours;
+  if (const auto found = known.find(served->id()); found != known.end()) return found->second;
+  if (may_find_out()) return known.emplace(served->id(), find_detours(robot, *place.posture, place.back, served)).first->second;
+  static const std::vector<Detour> none;
+  if (wished_.insert({served->id(), place.posture}).second) wish(DetourWish{robot, place.posture, place.back, served, std::nullopt});
+  return none;
+}
+
+std::vector<Detour> Outlook::find_detours(RobotIndex robot, Posture& posture, const std::optional<model::MotionRequest>& back,
+                                          const SampledMotionPtr& served) {
+  std::vector<Detour> detours;
   const auto add = [&](const std::vector<Way>& ways) {
     for (const Way& way : ways) {
       const model::Motion& full = way.full->motion();
@@ -75,13 +83,13 @@ const std::vector<Detour>& Outlook::detours_of(RobotIndex robot, Place& place, c
       Detour d{way.way, way.request, way.full};
       if (full.is_linear() && length < whole - kDetourBeyond) {
         d.request = shortened(full, length);
-        d.motion = admitted(robot, model::MotionBodies::unchanged(*place.posture->body), place.posture->q, d.request);
+        d.motion = admitted(robot, model::MotionBodies::unchanged(*posture.body), posture.q, d.request);
       }
       if (d.motion) detours.push_back(std::move(d));
     }
   };
-  add(ways_known(robot, place));
-  if (detours.empty()) add(ways_sought(robot, place));
+  add(ways_known(robot, posture, back));
+  if (detours.empty()) add(ways_sought(robot, posture));
   std::stable_sort(detours.begin(), detours.end(),
                    [](const Detour& a, const Detour& b) { return duration_of(a.motion) < duration_of(b.motion); });
   if (detours.size() > kDetours) detours.resize(kDetours);

@@ -13,8 +13,9 @@ using model::RobotIndex;
 
 namespace {
 
-constexpr double kSameTime = 1e-6;    // [s]
-constexpr std::size_t kSameKept = 8;  // nodes of a beam in which all robots are at the same places
+constexpr double kSameTime = 1e-6;                  // [s]
+constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15;  // 2^64 divided by the golden ratio
+constexpr std::size_t kSameKept = 8;                // nodes of a beam in which all robots are at the same places
 
 }  // namespace
 
@@ -91,7 +92,7 @@ void Outlook::expand(std::size_t parent, std::size_t most_detours, std::vector<s
       const RobotState s = state(parent, j);
       if (s.place->aside || robots_[j].seen.back().lost) continue;
       for (const Detour& d : detours_of(j, *s.place, waiting)) {
-        if (work_ > budget_) return;
+        if (work_ + map_work_ > budget_) return;
         const auto start = earliest(parent, j, d.motion, std::max(nodes_[parent].last, s.free));
         if (!start) continue;
         const Forbidden& after = forbidden(i, waiting, j, d.motion);
@@ -170,6 +171,7 @@ std::optional<std::size_t> Outlook::after(std::size_t node, const PlannedStart& 
 std::optional<OutlookPlan> Outlook::follow(const OutlookPlan& plan) {
   if (!begin()) return std::nullopt;
   budget_ = std::numeric_limits<std::size_t>::max();
+  find_out_everything();
   std::size_t node = 0;
   for (const PlannedStart& p : plan.starts) {
     const auto next = after(node, p);
@@ -197,17 +199,20 @@ const SampledMotionPtr* Outlook::kept(Posture& posture, const SampledMotionPtr& 
   return &posture.followed.back();
 }
 
-std::optional<OutlookPlan> Outlook::search(const std::optional<Instant>& no_later, const OutlookPlan* best, std::size_t budget,
+std::optional<OutlookPlan> Outlook::search(const std::optional<Instant>& no_later, const OutlookPlan* best, const Budget& budget,
                                            MapStore& maps) {
   maps_ = &maps;
   work_ = 0;
-  budget_ = budget;
+  grant(budget.grants);
+  budget_ = budget.work;
+  map_work_ = 0;
+  map_budget_ = budget.maps;
   std::optional<OutlookPlan> found;
   for (; !exhausted(); ++next_beam_) {
     const Beam next = beam(next_beam_);
     if (settled_ && next.detours <= *settled_) continue;
     auto plan = run(next, no_later, found ? &*found : best);
-    if (work_ > budget_) break;
+    if (work_ + map_work_ > budget_) break;
     if (plan) found = std::move(plan);
   }
   return found;
@@ -220,10 +225,11 @@ std::optional<OutlookPlan> Outlook::run(const Beam& beam, std::optional<Instant>
   std::vector<std::size_t> layer{0}, next, commands, detours;
   std::optional<std::size_t> best_node;
   bool cut = false;
+  const std::size_t wishes = wishes_.size();
   while (!layer.empty() && !best_node) {
     next.clear();
     for (std::size_t k = 0; k < layer.size(); ++k) {
-      if (work_ > budget_) return std::nullopt;
+      if (work_ + map_work_ > budget_) return std::nullopt;
       commands.clear();
       detours.clear();
       expand(layer[k], beam.detours, commands, detours);
@@ -245,8 +251,7 @@ std::optional<OutlookPlan> Outlook::run(const Beam& beam, std::optional<Instant>
     next.erase(std::remove_if(next.begin(), next.end(), [&](std::size_t k) { return !judge(k); }), next.end());
     std::stable_sort(next.begin(), next.end(), [&](std::size_t a, std::size_t b) { return nodes_[a].score < nodes_[b].score; });
     layer.clear();
-    std::map<std::vector<const Place*>, std::size_t> same;
-    std::vector<const Place*> places(n);
+    std::unordered_map<std::uint64_t, std::size_t> same;
     for (const std::size_t k : next) {
       if (complete(k)) {
         const bool better = !best_node || nodes_[k].end < nodes_[*best_node].end ||
@@ -258,7 +263,8 @@ std::optional<OutlookPlan> Outlook::run(const Beam& beam, std::optional<Instant>
         cut = true;
         continue;
       }
-      for (RobotIndex i = 0; i < n; ++i) places[i] = state(k, i).place;
+      std::uint64_t places = 0;  // a number for where all robots are; two that are the same by chance cost a node
+      for (RobotIndex i = 0; i < n; ++i) places = (places ^ state(k, i).place->number) * kMix + i;
       if (++same[places] <= kSameKept) {
         layer.push_back(k);
       } else {
@@ -266,7 +272,7 @@ std::optional<OutlookPlan> Outlook::run(const Beam& beam, std::optional<Instant>
       }
     }
   }
-  if (!cut) settled_ = beam.detours;
+  if (!cut && wishes_.size() == wishes) settled_ = beam.detours;
   if (!best_node) return std::nullopt;
   OutlookPlan plan = plan_to(*best_node);
   if (best != nullptr && !plan.better_than(*best)) return std::nullopt;

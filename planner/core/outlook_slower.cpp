@@ -38,6 +38,7 @@ std::optional<OutlookPlan> Outlook::with_slower(const OutlookPlan& plan, std::si
 std::optional<OutlookPlan> Outlook::slowed_down(const OutlookPlan& plan, std::size_t budget, MapStore& maps) {
   maps_ = &maps;
   work_ = 0;
+  map_work_ = 0;
   std::optional<OutlookPlan> best;
   for (RobotIndex robot = 0; robot < robots_.size(); ++robot) {
     const double slowest = cell_.robots[robot].tcp.slowest;
@@ -51,7 +52,7 @@ std::optional<OutlookPlan> Outlook::slowed_down(const OutlookPlan& plan, std::si
     for (const double share : kSpeeds) {
       const double part = as_late + share * (1 - as_late);
       if (part < slowest) continue;
-      if (work_ > budget) return best;
+      if (work_ + map_work_ > budget) return best;
       auto slower = with_slower(plan, static_cast<std::size_t>(first - starts.begin()), part);
       if (slower && slower->better_than(best ? *best : plan)) best = std::move(slower);
     }

@@ -18,14 +18,14 @@ constexpr int kCoarser = 2;  // where a detour could end: a few millimetres more
 /// Counts the same whether it is there already or not.
 const KeptMap& Outlook::map_of(const SampledMotionPtr& motion, const SampledMotionPtr& moving) {
   const KeptMap& map = maps_->get(motion, moving);
-  work_ += kMapWork + kEvaluationWork * map.map.evaluations;
+  map_work_ += kMapWork + kEvaluationWork * map.map.evaluations;
   return map;
 }
 
 /// Local time from which on a robot on its way could stop and be clear of all that `served` sweeps, the earliest.
 std::optional<double> Outlook::first_clear(const SampledMotionPtr& served, const SampledMotionPtr& way) {
   const TimesInTheWay found = times_in_the_way(*served, *way, cell_.planning.margin, kCoarser);
-  work_ += kMapWork + kEvaluationWork * found.evaluations;
+  map_work_ += kMapWork + kEvaluationWork * found.evaluations;
   return found.first_clear(way->motion().duration());
 }
 
@@ -35,39 +35,59 @@ Outlook::Forbidden Outlook::compute(RobotIndex robot, const SampledMotionPtr& mo
   return united(forbidden_by(candidate, other, timing_, map_of(motion, other.motion), departures));
 }
 
+Outlook::Row& Outlook::row_of(const SampledMotionPtr& motion) {
+  if (last_row_ != nullptr && last_row_id_ == motion->id()) return *last_row_;  // mostly one motion is held against one after the other
+  last_row_id_ = motion->id();
+  last_row_ = &forbidden_[motion->id()];
+  if (last_row_->with.empty()) last_row_->motion = motion;
+  return *last_row_;
+}
+
 /// `motion` and what the other does, after the start of `moving`.
 const Outlook::Pair& Outlook::pair(RobotIndex robot, const SampledMotionPtr& motion, RobotIndex other, const SampledMotionPtr& moving) {
   ++work_;
-  auto [entry, fresh] = forbidden_[motion->id()].try_emplace(moving->id());
-  if (fresh) {
-    Neighbour n;
-    n.robot = other;
-    n.motion = moving;
-    n.committed = true;
-    n.start_until = n.start_from + robots_[other].tolerance;
-    entry->second.forbidden = compute(robot, motion, n);
-    const KeptMap& map = maps_->get(motion, moving);
-    entry->second.map.map.moving_duration = map.map.moving_duration;
-    entry->second.map.passing = map.passing;
-    entry->second.map.at_end = map.at_end;
-  }
-  return entry->second;
+  Row& row = row_of(motion);
+  if (const auto known = row.with.find(moving->id()); known != row.with.end()) return known->second;
+  if (may_find_out()) return row.with.emplace(moving->id(), make_pair(robot, motion, other, moving)).first->second;
+  static const Pair unknown{{{model::kEarliest, model::kForever}}, {}, true};
+  if (wished_.insert({motion->id(), moving.get()}).second) wish(PairWish{robot, other, motion, moving, std::nullopt});
+  return unknown;
+}
+
+Outlook::Pair Outlook::make_pair(RobotIndex robot, const SampledMotionPtr& motion, RobotIndex other, const SampledMotionPtr& moving) {
+  Neighbour n;
+  n.robot = other;
+  n.motion = moving;
+  n.committed = true;
+  n.start_until = n.start_from + robots_[other].tolerance;
+  Pair pair;
+  pair.forbidden = compute(robot, motion, n);
+  const KeptMap& map = maps_->get(motion, moving);
+  pair.map.map.moving_duration = map.map.moving_duration;
+  pair.map.passing = map.passing;
+  pair.map.at_end = map.at_end;
+  return pair;
 }
 
 const Outlook::Forbidden& Outlook::forbidden_now(RobotIndex robot, const SampledMotionPtr& motion, RobotIndex other) {
   ++work_;
-  auto [entry, fresh] = forbidden_now_[other].try_emplace(motion->id());
-  if (!fresh) return entry->second;
+  auto& known = forbidden_now_[other];
+  auto entry = known.find(motion->id());
+  if (entry != known.end()) return entry->second;
   const auto& seen = robots_[other].seen;
   if (timing_.promise && seen.size() == 2 && seen[0].started && !seen[0].lost) {
     const Pair& first = pair(robot, motion, other, seen[0].motion);
     const Pair& next = pair(robot, motion, other, seen[1].motion);
+    if (first.unknown) return first.forbidden;
+    if (next.unknown) return next.forbidden;
+    entry = known.try_emplace(motion->id()).first;
     const Stop stop{seen[0].start_from, seen[0].start_until, seen[1].start_from, seen[1].start_until};
     work_ += kStopWork;
     const Candidate candidate{robot, motion, robots_[robot].tolerance};
     entry->second = united(forbidden_by_stop(candidate, *seen[0].motion, stop, *timing_.promise, first.map, next.map).starts);
     return entry->second;
   }
+  entry = known.try_emplace(motion->id()).first;
   for (const Neighbour& n : seen) {
     for (const StartInterval& i : compute(robot, motion, n)) entry->second.push_back(i);
   }
@@ -115,6 +135,7 @@ std::optional<Instant> Outlook::relying(std::size_t node, RobotIndex robot, cons
     }
     const auto stop = s.start <= start ? std::nullopt : stop_of(other, s);
     const Pair& next = pair(robot, motion, other, *s.moving);
+    if (next.unknown) return std::nullopt;
     if (!stop) {
       for (const StartInterval& i : next.forbidden) all.push_back({shifted(i.from, s.start), shifted(i.until, s.start)});
       const bool stands = s.start > start && !next.forbidden.empty() && next.forbidden.front().from == model::kEarliest;
@@ -124,6 +145,7 @@ std::optional<Instant> Outlook::relying(std::size_t node, RobotIndex robot, cons
     start = std::max(start, stop->moving_until);
     const SampledMotionPtr& first = s.before != nullptr ? *s.before : robots_[other].seen.back().motion;
     const Pair& before = pair(robot, motion, other, first);
+    if (before.unknown) return std::nullopt;
     work_ += kStopWork;
     auto f = forbidden_by_stop({robot, motion, robots_[robot].tolerance}, *first, *stop, *timing_.promise, before.map, next.map);
     all.insert(all.end(), f.starts.begin(), f.starts.end());
@@ -163,6 +185,7 @@ std::optional<Instant> Outlook::earliest(std::size_t node, RobotIndex robot, con
 
 bool Outlook::blocks_for_good(std::size_t node, RobotIndex blocker, RobotIndex robot, const SampledMotionPtr& motion) {
   const RobotState& s = state(node, blocker);
+  if (s.moving && pair(robot, motion, blocker, *s.moving).unknown) return false;  // who knows
   const Forbidden& intervals = s.moving ? forbidden(robot, motion, blocker, *s.moving) : forbidden_now(robot, motion, blocker);
   return !intervals.empty() && intervals.back().until == model::kForever;
 }

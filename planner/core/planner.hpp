@@ -237,6 +237,8 @@ class Planner {
     std::uint64_t seen = 0;             // revision that the plan was made for
     std::uint64_t look = 0;             // of the outlook, for it
     std::optional<Instant> wake;        // when the next planned start is due
+    bool fresh = false;                 // nothing is known yet of what is planned for
+    std::optional<Instant> searched;    // last
     bool arrived = false;               // commands that nothing has been decided for yet
   };
   Ahead ahead_;

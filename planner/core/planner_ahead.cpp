@@ -15,7 +15,10 @@ using model::Reason;
 
 namespace {
 
-constexpr double kFirstLook = 15;  // budgets for a decision while nobody moves
+constexpr double kFirstLook = 10;          // budgets for the first decision, when a plan is made
+constexpr double kMapShare = 0.1;          // of the budget, that may go into maps that nobody has prepared
+constexpr double kGrantsPerSecond = 2000;  // a quarter of the time on the machines of today
+constexpr double kLongest = 10;            // [s] for which it goes on
 
 }  // namespace
 
@@ -51,14 +54,7 @@ void Planner::serve_ahead(Instant now, Decisions& out) {
     }
     if (somebody_is_about_to_start(now)) break;
     if (!again) look_from(now);
-    if (getenv("TRACE")) {
-      auto& p = starts.front();
-      fprintf(stderr, "%.3f start fails robot %zu detour %d planned %.3f committed %d following %d again %d\n", model::to_seconds(now),
-              p.robot, p.detour.has_value(), model::to_seconds(p.start), robots_[p.robot].committed.has_value(),
-              robots_[p.robot].following.has_value(), again);
-    }
     ahead_.plan = again ? std::nullopt : ahead_.outlook->follow(*ahead_.plan);
-    if (getenv("TRACE")) fprintf(stderr, "   follow gives %d\n", ahead_.plan.has_value());
     again = true;
     if (!ahead_.plan) ahead_.event_ends.reset();
   }
@@ -100,19 +96,15 @@ void Planner::look_ahead(Instant now) {
     return;
   }
   look_from(now);
-  if (ahead_.plan) {
-    ahead_.plan = ahead_.outlook->follow(*ahead_.plan);
-    if (getenv("TRACE") && !ahead_.plan) fprintf(stderr, "%.3f look: follow lost\n", model::to_seconds(now));
-  }
+  if (ahead_.plan) ahead_.plan = ahead_.outlook->follow(*ahead_.plan);
   if (!ahead_.plan && !ahead_.event_ends) {
+    ahead_.fresh = true;
     const auto event = rehearse(now);
     look_from(now);
     if (event) {
       ahead_.event_ends = event->end;
       ahead_.plan = ahead_.outlook->follow(*event);
-      if (getenv("TRACE"))
-        fprintf(stderr, "rehearsed %.2f followed %.2f\n", model::to_seconds(event->end),
-                ahead_.plan ? model::to_seconds(ahead_.plan->end) : 0.0);
+      if (ahead_.plan && ahead_.plan->end > event->end) ahead_.plan.reset();
     }
   }
   search_ahead(now);
@@ -120,27 +112,20 @@ void Planner::look_ahead(Instant now) {
 
 /// Puts one decision's work into a better plan.
 void Planner::search_ahead(Instant now) {
-  // While all stand there is nothing to be late for.
-  const double budget = cell_->planning.budget * kWorkPerSecond * (all_stand() ? kFirstLook : 1);
+  // Before a plan is made all of it is new, and nobody waits for more than the first start.
+  const double work = cell_->planning.budget * kWorkPerSecond;
+  Outlook::Budget budget;
+  budget.work = static_cast<std::size_t>(work * (ahead_.fresh ? kFirstLook : 1));
+  budget.maps = static_cast<std::size_t>(work * (ahead_.fresh ? kFirstLook : kMapShare));
+  if (ahead_.searched)
+    budget.grants = static_cast<std::size_t>(kGrantsPerSecond * std::min(kLongest, model::to_seconds(now - *ahead_.searched)));
+  ahead_.searched = now;
+  ahead_.fresh = false;
   const auto no_later = ahead_.plan ? std::nullopt : ahead_.event_ends;
-  const double bs = getenv("SEARCH") ? atof(getenv("SEARCH")) : 1;
-  auto better = ahead_.outlook->search(no_later, ahead_.plan ? &*ahead_.plan : nullptr,
-                                       static_cast<std::size_t>(budget * (ahead_.plan ? bs : 1)), maps_);
+  auto better = ahead_.outlook->search(no_later, ahead_.plan ? &*ahead_.plan : nullptr, budget, maps_);
   if (better && (!no_later || better->end < *no_later)) ahead_.plan = std::move(better);
-  if (getenv("TRACE"))
-    fprintf(stderr, "%.2f plan %.2f event %.2f starts %zu work %zu exhausted %d beam %zu nodes %zu detours %zu stand %d\n",
-            model::to_seconds(now.time_since_epoch()), ahead_.plan ? model::to_seconds(ahead_.plan->end.time_since_epoch()) : 0,
-            ahead_.event_ends ? model::to_seconds(ahead_.event_ends->time_since_epoch()) : 0, ahead_.plan ? ahead_.plan->starts.size() : 0,
-            ahead_.outlook->work(), ahead_.outlook->exhausted(), ahead_.outlook->next_beam(), ahead_.outlook->nodes(),
-            ahead_.plan ? static_cast<std::size_t>(std::count_if(ahead_.plan->starts.begin(), ahead_.plan->starts.end(),
-                                                                 [](auto& s) { return s.detour.has_value(); }))
-                        : std::size_t{0},
-            all_stand());
   if (!ahead_.plan) return;
-  const double share = getenv("IMPROVE") ? atof(getenv("IMPROVE")) : 0;
-  if (auto other = share > 0 ? ahead_.outlook->improve(*ahead_.plan, static_cast<std::size_t>(share * budget), maps_) : std::nullopt)
-    ahead_.plan = std::move(other);
-  if (auto slower = ahead_.outlook->slowed_down(*ahead_.plan, static_cast<std::size_t>(budget), maps_)) ahead_.plan = std::move(slower);
+  if (auto slower = ahead_.outlook->slowed_down(*ahead_.plan, static_cast<std::size_t>(work), maps_)) ahead_.plan = std::move(slower);
 }
 
 /// Somebody was told to start by now and has not been heard of since, or is to start once another one has left: that comes first.

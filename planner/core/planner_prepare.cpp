@@ -11,6 +11,7 @@ bool Planner::prepare() {
     if (prepare_for(robots_[next_prepared_])) return true;
     next_prepared_ = (next_prepared_ + 1) % robots_.size();
   }
+  if (ahead_.outlook && ahead_.outlook->prepare(maps_)) return true;
   prepared_ = true;
   return false;
 }

@@ -299,9 +299,10 @@ TimesInTheWay times_in_the_way(SampledMotion& commanded, SampledMotion& moving, 
 }
 
 std::optional<double> TimesInTheWay::first_clear(double duration) const {
+  constexpr double kMeet = 1e-9;  // [s]: the end of a piece and the beginning of the next one differ by their rounding
   double clear = 0;
   for (const auto& [from, until] : times) {
-    if (from > clear) break;
+    if (from > clear + kMeet) break;
     clear = std::max(clear, until);
   }
   return clear > duration ? std::nullopt : std::optional{clear};
