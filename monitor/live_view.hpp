@@ -12,6 +12,7 @@
 #include "common/app/config/cell_file.hpp"
 #include "common/dds/envelope.hpp"
 #include "monitor/alarm_board.hpp"
+#include "monitor/cell_picture.hpp"
 #include "monitor/clearance_observer.hpp"
 #include "monitor/collision_picture.hpp"
 #include "monitor/command_book.hpp"
@@ -54,6 +55,8 @@ class LiveView {
   [[nodiscard]] std::vector<Frame> take_events();
   /// Where the robots were at the last advance().
   [[nodiscard]] Frame pose() const;
+  /// The same and all else that was known then, for those who do not read frames.
+  [[nodiscard]] CellPicture picture() const;
   /// All that a viewer who has seen nothing needs.
   [[nodiscard]] Frame snapshot() const;
   /// The collision map of a command, or a frame that says why there is none.
@@ -68,6 +71,7 @@ class LiveView {
   };
   [[nodiscard]] double seconds_at(LocalTime t) const { return std::chrono::duration<double>(t - origin_).count(); }
   [[nodiscard]] bool heard_lately(const Seen& seen) const;
+  [[nodiscard]] bool planner_heard_lately() const { return planner_heard_ && now_ - *planner_heard_ <= kPlannerSilence; }
   void add_event(const char* type, nlohmann::json content);
   void add_command(const CommandRecord* record);
   void add_motion(const KnownMotion* motion);

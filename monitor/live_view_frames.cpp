@@ -103,7 +103,7 @@ nlohmann::json LiveView::state_json() const {
                      {"clearance_m", metres(pair.least)},
                      {"at", seconds(pair.at)}});
   }
-  nlohmann::json planner{{"heard", planner_heard_ && now_ - *planner_heard_ <= kPlannerSilence}, {"strategy", nullptr}};
+  nlohmann::json planner{{"heard", planner_heard_lately()}, {"strategy", nullptr}};
   if (planner_) {
     planner["strategy"] = planner_->strategy;
     planner["accepted"] = planner_->accepted;

@@ -111,6 +111,27 @@ TEST_F(LiveViewTest, ARobotThatWasNeverHeardIsNotInvented) {
   EXPECT_TRUE(pose["pairs"][0].is_null());
 }
 
+TEST_F(LiveViewTest, ThePictureTellsWhoIsHeardFromWhoWasAndWhoNeverWas) {
+  heartbeat(1);
+  posture("r1", 1);
+  (void)advance(1.01);
+  const CellPicture first = view_.picture();
+  ASSERT_EQ(first.robots.size(), 2U);
+  EXPECT_TRUE(first.planner_heard);
+  EXPECT_TRUE(first.robots[0].heard);
+  EXPECT_EQ(first.robots[0].capsules.size(), first.robots[0].clearance.size());
+  EXPECT_FALSE(first.robots[1].heard || first.robots[1].posture);
+  EXPECT_TRUE(first.robots[1].capsules.empty());
+  ASSERT_NE(first.robots[1].body, nullptr);
+  EXPECT_EQ(first.robots[1].body->name.str(), "r2");
+
+  (void)advance(4);
+  const CellPicture later = view_.picture();
+  EXPECT_FALSE(later.planner_heard || later.robots[0].heard);
+  EXPECT_TRUE(later.robots[0].posture) << "where it was last";
+  EXPECT_FALSE(later.alarms.empty());
+}
+
 TEST_F(LiveViewTest, SaysInOneSentenceAndAsDataWhyARobotWaits) {
   all_stand(10);
   auto s = status("c", "r2", model::CommandState::waiting);
