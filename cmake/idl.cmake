@@ -1,6 +1,5 @@
 # Library interlace_idl: the C++ types of idl/interlace.idl, generated into the build tree, never into the sources.
-# Variable INTERLACE_IDL: the file itself, for other vendors' generators (tests/integration/dds).
-set(INTERLACE_IDL ${PROJECT_SOURCE_DIR}/idl/interlace.idl CACHE INTERNAL "The wire contract")
+set(INTERLACE_IDL ${PROJECT_SOURCE_DIR}/idl/interlace.idl)
 set(_idl_dir ${PROJECT_BINARY_DIR}/generated/fastdds)
 file(MAKE_DIRECTORY ${_idl_dir})
 

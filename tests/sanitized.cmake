@@ -5,7 +5,8 @@
 # compile that its test runs under the sanitizers with --full alone.
 set(interlace_threaded app_tests proxy_unit simulator_tests)
 if(INTERLACE_DDS)
-  list(APPEND interlace_threaded dds_round_trip_test dds_refusal_test dds_mutation_test dds_practice_test dds_cyclone_test)
+  list(APPEND interlace_threaded dds_round_trip_test dds_refusal_test dds_mutation_test dds_practice_test dds_cyclone_test
+       dds_ros2_test)
 endif()
 add_custom_target(threaded_tests DEPENDS ${interlace_threaded})
 

@@ -75,6 +75,15 @@ void apply(const Profile& p, EndpointQos& q) {
   }
 }
 
+fast::DataWriterQos writer_of(const Profile& p) {
+  fast::DataWriterQos q;
+  apply(p, q);
+  // A lost sample is asked for again at the next heartbeat of the reliable protocol; its default of 3 s is longer than a motion.
+  q.reliable_writer_qos().times.heartbeatPeriod = to_dds(std::chrono::milliseconds{100});
+  q.reliability().max_blocking_time = to_dds(std::chrono::milliseconds{100});
+  return q;
+}
+
 }  // namespace
 
 fast::DomainParticipantQos participant(const ParticipantOptions& options) {
@@ -97,17 +106,18 @@ fast::DomainParticipantQos participant(const ParticipantOptions& options) {
 }
 
 fast::DataWriterQos writer(Stream stream) {
-  fast::DataWriterQos q;
-  apply(profile(stream), q);
-  // A lost sample is asked for again at the next heartbeat of the reliable protocol; its default of 3 s is longer than a motion.
-  q.reliable_writer_qos().times.heartbeatPeriod = to_dds(std::chrono::milliseconds{100});
-  q.reliability().max_blocking_time = to_dds(std::chrono::milliseconds{100});
-  return q;
+  return writer_of(profile(stream));
 }
 
 fast::DataReaderQos reader(Stream stream) {
   fast::DataReaderQos q;
   apply(profile(stream), q);
+  return q;
+}
+
+fast::DataWriterQos ros2_writer(const Ros2Topic& topic, const std::string& user_data) {
+  fast::DataWriterQos q = writer_of({topic.latched, topic.depth, std::nullopt});
+  q.user_data().setValue({user_data.begin(), user_data.end()});
   return q;
 }
 
