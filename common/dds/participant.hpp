@@ -24,9 +24,9 @@ struct ParticipantOptions {
   bool shared_memory = false;  ///< adds the shared memory transport; off because a restarted peer can stay deaf on it
 };
 
-/// This process on its DDS domain. One per process; readers and writers are made from it, in the thread that made it, and destroyed
-/// before it. No XML profile of Fast DDS changes it, so that every process runs with the same settings; what Fast DDS itself has to say
-/// goes to standard error.
+/// This process on its DDS domain. One per process (the monitor has another one on the domain of ROS 2); readers and writers are made from
+/// it, in the thread that made it, and destroyed before it. No XML profile of Fast DDS changes it, so that every process runs with the same
+/// settings; what Fast DDS itself has to say goes to standard error.
 class Participant {
  public:
   /// Throws std::invalid_argument for a domain above kMaxDomain, std::runtime_error when Fast DDS cannot join (no ports, no network).

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "common/app/command_line.hpp"
 #include "common/app/signals.hpp"
@@ -15,10 +16,12 @@ int main(int argc, char** argv) {
     app::Signals signals;
     CLI::App cli{
         "Shows a running cell in a browser: the arms, what each command waits for and until when, and how near everything comes.\n"
-        "Reads what the cell's processes say to each other and writes nothing. Prints the address of the page."};
+        "Reads what the cell's processes say to each other and writes nothing to them. Prints the address of the page.\n"
+        "With --ros2-domain also for ROS 2's tools, such as RViz, Foxglove and `ros2 topic echo` (docs/ros2.md)."};
     std::string file, folder = std::filesystem::canonical("/proc/self/exe").parent_path().parent_path() / "share/interlace/monitor";
     monitor::ServerOptions server;
     int domain = 0;
+    std::optional<std::uint32_t> ros2_domain;
     auto level = app::LogLevel::info;
     cli.add_option("CELL", file, "cell file (deploy/cells/*/cell.yaml): the same as the planner's")->required();
     cli.add_option("--listen", server.address, "address to serve on; 0.0.0.0 lets everyone on the network look on")->capture_default_str();
@@ -28,16 +31,23 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 100))
         ->capture_default_str();
     cli.add_option("--page", folder, "folder of the page; default: the one built or installed with this program");
+    cli.add_option("--ros2-domain", ros2_domain,
+                   "show the cell to ROS 2 on this DDS domain, ROS 2's own ROS_DOMAIN_ID; another than the cell's")
+        ->check(CLI::Range(0, app::kMaxDomain));
     app::add_domain(cli, domain);
     app::add_log_level(cli, level);
     app::add_common(cli);
     if (const auto code = app::parse(cli, argc, argv)) return app::to_int(*code);
     app::start_logging("monitor", level);
+    if (ros2_domain == static_cast<std::uint32_t>(domain)) {
+      return fmt::print(stderr, "--ros2-domain {0}: found the cell's own domain, expected another one\n", domain),
+             app::to_int(ExitCode::bad_input);
+    }
     auto cell = app::load_cell(file);
     if (!cell) return fmt::print(stderr, "{}\n", to_string(cell.error())), app::to_int(ExitCode::bad_input);
     auto page = monitor::Bundle::load(folder);
     if (!page) return fmt::print(stderr, "no page to serve: {}\n", page.error()), app::to_int(ExitCode::unavailable);
-    monitor::MonitorNode node{std::move(*cell), static_cast<std::uint32_t>(domain), server, std::move(*page)};
+    monitor::MonitorNode node{std::move(*cell), static_cast<std::uint32_t>(domain), server, std::move(*page), ros2_domain};
     signals.on_signal([&](int, int) { node.stop(); });
     fmt::print("{}\n", node.url());
     std::fflush(stdout);

@@ -16,11 +16,13 @@ MonitorNode::Link::Link(dds::Participant& participant, const std::string& cell, 
       executions(participant, dds::topics::execution(cell, robot)),
       postures(participant, dds::topics::posture(cell, robot)) {}
 
-MonitorNode::MonitorNode(app::LoadedCell cell, std::uint32_t domain, const ServerOptions& server, Bundle bundle)
+MonitorNode::MonitorNode(app::LoadedCell cell, std::uint32_t domain, const ServerOptions& server, Bundle bundle,
+                         std::optional<std::uint32_t> ros2_domain)
     : cell_(std::move(cell)),
       view_(cell_, Clock::now()),
       participant_({domain, "interlace-monitor " + cell_.cell.name}),
       states_(participant_, dds::topics::planner_state(cell_.cell.name)),
+      ros2_(ros2_domain ? std::make_unique<Ros2Publisher>(cell_.cell, *ros2_domain) : nullptr),
       server_(server, std::move(bundle), [this](ViewerId viewer, const ViewerRequest& request) { on_request(viewer, request); }) {
   wait_.attach(states_);
   for (const model::Robot& robot : cell_.cell.robots) {
@@ -78,6 +80,7 @@ void MonitorNode::take_all() {
 
 void MonitorNode::show(Clock::time_point now) {
   view_.advance(now);
+  if (ros2_) ros2_->show(view_.picture(), now);
   auto events = view_.take_events();
   if (server_.viewers() == 0) return;
   for (Frame& event : events) server_.broadcast(std::move(event));

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,17 +14,20 @@
 #include "common/dds/participant.hpp"
 #include "common/dds/reader.hpp"
 #include "common/dds/wait.hpp"
+#include "monitor/daemon/ros2_publisher.hpp"
 #include "monitor/live_view.hpp"
 #include "monitor/server/web_server.hpp"
 
 namespace interlace::monitor {
 
-/// The observer of one cell on DDS: takes messages, hands them to the view, and its frames to the server. Writes nothing to DDS.
-/// One thread builds it, runs it and destroys it; only stop() may be called from another.
+/// The observer of one cell on DDS: takes messages, hands them to the view, and its frames to the server. Writes nothing to the cell's
+/// domain. One thread builds it, runs it and destroys it; only stop() may be called from another.
 class MonitorNode {
  public:
+  /// With `ros2_domain` it shows the cell to ROS 2's tools as well, on that domain, another than the cell's.
   /// Throws std::runtime_error when DDS cannot be joined or the address cannot be had.
-  MonitorNode(app::LoadedCell cell, std::uint32_t domain, const ServerOptions& server, Bundle bundle);
+  MonitorNode(app::LoadedCell cell, std::uint32_t domain, const ServerOptions& server, Bundle bundle,
+              std::optional<std::uint32_t> ros2_domain = std::nullopt);
 
   /// Works until stop().
   void run();
@@ -59,7 +63,8 @@ class MonitorNode {
   dds::Reader<model::PlannerState> states_;
   std::vector<std::unique_ptr<Link>> links_;
   dds::Wait wait_;
-  std::mutex mutex_;  // of asked_
+  std::unique_ptr<Ros2Publisher> ros2_;  // null: nobody asked for it
+  std::mutex mutex_;                     // of asked_
   Asked asked_;
   Clock::time_point next_pose_{};
   std::atomic<bool> stopping_{false};
