@@ -12,4 +12,4 @@ add_custom_target(threaded_tests DEPENDS ${interlace_threaded})
 
 # All tests but the end-to-end ones.
 add_custom_target(sanitized_tests DEPENDS ${interlace_threaded} client_tests config_tests core_tests mesh_tests model_tests model_walk_tests modeller_tests monitor_tests planner_lossy planner_promises
-                                          report_tests reproduce_tests ros2_tests core_properties model_properties standoff_tests dissertation_regressions)
+                                          report_tests reproduce_tests ros2_tests core_properties model_properties ros2_properties standoff_tests dissertation_regressions)
