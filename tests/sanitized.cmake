@@ -10,5 +10,5 @@ endif()
 add_custom_target(threaded_tests DEPENDS ${interlace_threaded})
 
 # All tests but the end-to-end ones.
-add_custom_target(sanitized_tests DEPENDS ${interlace_threaded} client_tests config_tests core_tests mesh_tests model_tests model_walk_tests modeller_tests monitor_tests planner_lossy planner_promises
+add_custom_target(sanitized_tests DEPENDS ${interlace_threaded} client_tests config_tests core_tests mcap_tests mesh_tests model_tests model_walk_tests modeller_tests monitor_tests planner_lossy planner_promises
                                           report_tests reproduce_tests core_properties model_properties standoff_tests dissertation_regressions)
