@@ -10,10 +10,11 @@
 namespace interlace::dds::qos {
 
 /// What a stream is for decides its QoS.
-enum class Stream { command, command_status, dispatch, execution, posture, planner_state };
+enum class Stream { command, command_status, dispatch, execution, posture, planner_state, planner_journal };
 
 [[nodiscard]] eprosima::fastdds::dds::DomainParticipantQos participant(const ParticipantOptions& options);
 [[nodiscard]] eprosima::fastdds::dds::DataWriterQos writer(Stream stream);
-[[nodiscard]] eprosima::fastdds::dds::DataReaderQos reader(Stream stream);
+/// `depth`: samples it keeps until they are taken, per instance; 0: as many as its writers.
+[[nodiscard]] eprosima::fastdds::dds::DataReaderQos reader(Stream stream, std::int32_t depth = 0);
 
 }  // namespace interlace::dds::qos
