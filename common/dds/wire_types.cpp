@@ -69,12 +69,6 @@ bool lengths_are_bounded(Cdr& /*cdr*/) {
   return true;
 }
 
-/// Reads over a Goal.
-void skip_goal(Cdr& cdr) {
-  skip_numbers(cdr, 3 + 4 + 6);
-  skip_all<bool, double, bool, double, std::string, std::string, std::uint32_t>(cdr);
-}
-
 template <>
 bool lengths_are_bounded<::interlace::Command>(Cdr& cdr) {
   skip_all<std::uint32_t, std::uint32_t, std::string, std::string, std::string>(cdr);
@@ -88,15 +82,6 @@ bool lengths_are_bounded<::interlace::Command>(Cdr& cdr) {
     skip_all<std::int32_t, bool, double>(cdr);
   }
   return true;
-}
-
-template <>
-bool lengths_are_bounded<::interlace::Command>(Cdr& cdr) {
-  skip_all<std::uint32_t, std::uint32_t, std::string, std::string, std::string>(cdr);
-  skip_goal(cdr);
-  skip_all<std::int32_t, bool, double>(cdr);
-  std::uint32_t queue = 0;
-  return length_within(cdr, kMaxReplacement, queue);
 }
 
 template <>
