@@ -115,7 +115,8 @@ model::Result<Recorded, std::string> read_recorded(const std::string& path, cons
     if (life.fingerprint != cell->fingerprint)
       return Failure{fmt::format("{}: the planner worked with another cell file than the one at hand", path)};
   }
-  Recorded recorded{std::move(*cell), std::move(lives.all()), {}, (*reader)->cell_file().has_value(), (*reader)->cut_off()};
+  Recorded recorded{std::move(*cell), std::move(lives.all()), {}, (*reader)->cell_file().has_value(), std::nullopt};
+  if ((*reader)->cut_off()) recorded.cut_off = (*reader)->whole();
   recorded.report = report_of(recorded.cell.cell, recorded.lives.front(), statuses, postures);
   return recorded;
 }

@@ -39,6 +39,8 @@ class RecordingReader {
 
   /// At the end: the recorder was killed, there may have been more.
   [[nodiscard]] bool cut_off() const { return reader_.cut_off(); }
+  /// How much of the file was whole [bytes].
+  [[nodiscard]] std::uint64_t whole() const { return reader_.whole(); }
 
  private:
   RecordingReader(std::string path, std::ifstream file) : path_(std::move(path)), file_(std::move(file)), reader_(file_) {}

@@ -24,10 +24,10 @@ struct PlannerLife {
 /// What a replay needs of a recording.
 struct Recorded {
   app::LoadedCell cell;
-  std::vector<PlannerLife> lives;  ///< one for each planner that was heard, in their order; at least one
-  app::RunReport report;           ///< of the first life, as its statuses and postures say
-  bool has_cell_file = false;      ///< its own, `cell` is from it
-  bool cut_off = false;            ///< the recorder was killed: the end may be missing
+  std::vector<PlannerLife> lives;        ///< one for each planner that was heard, in their order; at least one
+  app::RunReport report;                 ///< of the first life, as its statuses and postures say
+  bool has_cell_file = false;            ///< its own, `cell` is from it
+  std::optional<std::uint64_t> cut_off;  ///< the recorder was killed: where the file stops being whole [bytes], the end may be missing
 };
 
 /// Reads the recording at `path`. `cell_file` stands in for the cell file that is not in it; empty: there is none. An error is one

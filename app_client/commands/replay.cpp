@@ -102,7 +102,9 @@ ExitCode execute_replay(const ReplayArguments& a) {
     fmt::print(stderr, "{}\n", recorded.error());
     return ExitCode::bad_input;
   }
-  if (recorded->cut_off) fmt::print(stderr, "{}: was not ended properly, its last second may be missing\n", a.file);
+  if (recorded->cut_off)
+    fmt::print(stderr, "{}: was not ended properly, it is whole up to byte {}; what its recorder had last heard may be missing\n", a.file,
+               *recorded->cut_off);
   const bool changed = !a.strategy.empty() || (!a.cell.empty() && recorded->has_cell_file);
   return changed ? compare(a, *recorded) : check_decisions(a, *recorded);
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <istream>
 
+#include "common/mcap/checksum.hpp"
 #include "common/mcap/fields.hpp"
 #include "common/mcap/format.hpp"
 
@@ -73,13 +74,14 @@ void Reader::open_chunk(const Bytes& content) {
   (void)f.number<std::uint64_t>();  // first and last time
   (void)f.number<std::uint64_t>();
   const auto size = f.number<std::uint64_t>();
-  (void)f.number<std::uint32_t>();  // CRC
+  const auto crc = f.number<std::uint32_t>();
   const std::string compression = f.text();
   const auto stored = f.number<std::uint64_t>();
   if (!compression.empty()) return refuse("a chunk is compressed with \"" + compression.substr(0, 32) + "\", only plain ones are read");
   if (!f.ok() || stored != size || stored != f.left()) return refuse("a chunk's sizes do not agree");
   chunk_ = f.rest();
   chunk_at_ = 0;
+  if (crc != kNoCrc && crc != checksum(chunk_)) refuse("a chunk's checksum does not agree: bytes of it were changed");
 }
 
 /// The message, when it is one; else remembers what the record says.
@@ -133,6 +135,9 @@ std::optional<Message> Reader::take(const Record& record, bool in_chunk) {
       a.name = f.text();
       a.media_type = f.text();
       a.data = f.bytes(f.number<std::uint64_t>());
+      const std::size_t summed = record.content.size() - f.left();
+      if (const auto crc = f.number<std::uint32_t>(); f.ok() && crc != kNoCrc && crc != checksum(record.content.data(), summed))
+        refuse("an attachment's checksum does not agree: bytes of it were changed");
       if (!f.ok() || attachments_.size() >= kMostThings) refuse("an attachment is malformed, or there are too many");
       attachments_.push_back(std::move(a));
       break;

@@ -34,6 +34,8 @@ class Reader {
 
   /// At the end: the file was not ended properly, there may have been more.
   [[nodiscard]] bool cut_off() const { return cut_off_; }
+  /// How much of the file was whole [bytes].
+  [[nodiscard]] std::uint64_t whole() const { return read_; }
 
  private:
   struct Record {

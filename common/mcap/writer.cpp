@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "common/mcap/checksum.hpp"
 #include "common/mcap/fields.hpp"
 #include "common/mcap/format.hpp"
 
@@ -10,10 +11,14 @@ namespace interlace::mcap {
 namespace {
 
 constexpr std::size_t kLargeChunk = 1U << 18;  // [bytes]
-constexpr std::uint32_t kNoCrc = 0;            // the format's way to say that none was computed
 
 std::uint8_t code(Opcode opcode) {
   return static_cast<std::uint8_t>(opcode);
+}
+
+/// What stands before the content of each record.
+Bytes head_of(std::uint8_t opcode, std::size_t length) {
+  return FieldWriter{}.number(opcode).number(std::uint64_t{length}).bytes();
 }
 
 }  // namespace
@@ -35,13 +40,13 @@ void Writer::put(const Bytes& bytes) {
 /// Where the record begins.
 std::uint64_t Writer::record(std::uint8_t opcode, const Bytes& content) {
   const std::uint64_t begin = offset_;
-  put(FieldWriter{}.number(opcode).number(std::uint64_t{content.size()}).bytes());
+  put(head_of(opcode, content.size()));
   put(content);
   return begin;
 }
 
 void Writer::into_chunk(std::uint8_t opcode, const Bytes& content) {
-  const Bytes head = FieldWriter{}.number(opcode).number(std::uint64_t{content.size()}).bytes();
+  const Bytes head = head_of(opcode, content.size());
   chunk_.insert(chunk_.end(), head.begin(), head.end());
   chunk_.insert(chunk_.end(), content.begin(), content.end());
 }
@@ -64,7 +69,8 @@ std::uint16_t Writer::add_channel(std::uint16_t schema, const std::string& topic
 void Writer::add(const Attachment& a) {
   FieldWriter content;
   content.number(a.log_time).number(a.log_time).text(a.name).text(a.media_type);
-  content.number(std::uint64_t{a.data.size()}).raw(a.data).number(kNoCrc);
+  content.number(std::uint64_t{a.data.size()}).raw(a.data);
+  content.number(checksum(content.bytes()));
   const std::uint64_t begin = record(code(Opcode::attachment), content.bytes());
   FieldWriter index;
   index.number(begin).number(offset_ - begin).number(a.log_time).number(a.log_time).number(std::uint64_t{a.data.size()});
@@ -97,12 +103,13 @@ void Writer::write(std::uint16_t channel, std::uint64_t log_time, std::uint64_t 
 
 void Writer::flush() {
   if (!chunk_.empty()) {
-    ChunkIndex index{chunk_begin_, chunk_end_, offset_, 0, {}, 0, chunk_.size()};
+    const std::uint64_t begin = offset_;
     FieldWriter content;
-    content.number(chunk_begin_).number(chunk_end_).number(std::uint64_t{chunk_.size()}).number(kNoCrc).text("");
+    content.number(chunk_begin_).number(chunk_end_).number(std::uint64_t{chunk_.size()}).number(checksum(chunk_)).text("");
     record(code(Opcode::chunk), content.number(std::uint64_t{chunk_.size()}).raw(chunk_).bytes());
-    index.length = offset_ - index.offset;
+    const std::uint64_t length = offset_ - begin;
     const std::uint64_t indexes_begin = offset_;
+    FieldWriter where;  // the index of each channel is
     for (auto& [channel, entries] : chunk_messages_) {
       // Readers take the entries as they stand, so they must be in order of time.
       std::stable_sort(entries.begin(), entries.end(), [](const IndexEntry& a, const IndexEntry& b) { return a.time < b.time; });
@@ -110,10 +117,15 @@ void Writer::flush() {
       for (const IndexEntry& e : entries) list.number(e.time).number(e.offset);
       FieldWriter all;
       all.number(channel).number(static_cast<std::uint32_t>(list.bytes().size())).raw(list.bytes());
-      index.indexes[channel] = record(code(Opcode::message_index), all.bytes());
+      where.number(channel).number(record(code(Opcode::message_index), all.bytes()));
     }
-    index.indexes_length = offset_ - indexes_begin;
-    chunks_.push_back(std::move(index));
+    FieldWriter index;
+    index.number(chunk_begin_).number(chunk_end_).number(begin).number(length);
+    index.number(static_cast<std::uint32_t>(where.bytes().size())).raw(where.bytes()).number(offset_ - indexes_begin);
+    index.text("").number(std::uint64_t{chunk_.size()}).number(std::uint64_t{chunk_.size()});
+    chunk_indexes_.add(head_of(code(Opcode::chunk_index), index.bytes().size()));
+    chunk_indexes_.add(index.bytes());
+    ++chunks_;
     chunk_.clear();
     chunk_messages_.clear();
     chunk_begin_ = chunk_end_ = 0;
@@ -124,7 +136,7 @@ void Writer::flush() {
 Bytes Writer::statistics() const {
   FieldWriter s;
   s.number(messages_).number(static_cast<std::uint16_t>(schemas_.size())).number(static_cast<std::uint32_t>(channels_.size()));
-  s.number(attachments_).number(metadata_).number(static_cast<std::uint32_t>(chunks_.size())).number(begin_).number(end_);
+  s.number(attachments_).number(metadata_).number(chunks_).number(begin_).number(end_);
   FieldWriter counts;
   for (const auto& [channel, count] : counts_) counts.number(channel).number(count);
   return s.number(static_cast<std::uint32_t>(counts.bytes().size())).raw(counts.bytes()).bytes();
@@ -137,14 +149,7 @@ void Writer::close() {
   for (const Bytes& s : schemas_) record(code(Opcode::schema), s);
   for (const Bytes& c : channels_) record(code(Opcode::channel), c);
   record(code(Opcode::statistics), statistics());
-  for (const ChunkIndex& c : chunks_) {
-    FieldWriter index;
-    index.number(c.begin).number(c.end).number(c.offset).number(c.length);
-    FieldWriter where;
-    for (const auto& [channel, offset] : c.indexes) where.number(channel).number(offset);
-    index.number(static_cast<std::uint32_t>(where.bytes().size())).raw(where.bytes()).number(c.indexes_length);
-    record(code(Opcode::chunk_index), index.text("").number(c.size).number(c.size).bytes());
-  }
+  if (!chunk_indexes_.drain([&](const Bytes& piece) { put(piece); })) out_.setstate(std::ios::badbit);
   for (const Placed& p : placed_) record(p.opcode, p.index);
   record(code(Opcode::footer), FieldWriter{}.number(summary).number(std::uint64_t{0}).number(kNoCrc).bytes());
   put(Bytes(kMagic.begin(), kMagic.end()));

@@ -8,12 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "common/mcap/spill.hpp"
 #include "common/mcap/types.hpp"
 
 namespace interlace::mcap {
 
 /// Writes an MCAP file: chunks without compression, each with the indexes that let a reader seek, and a summary at the end. What is in
-/// chunks that were flushed can be read even when nothing more is ever written. Not thread-safe.
+/// chunks that were flushed can be read even when nothing more is ever written. Memory does not grow with the file. Not thread-safe.
 class Writer {
  public:
   /// `out` must outlive it and stand at its begin. `library` names the program that writes.
@@ -47,11 +48,6 @@ class Writer {
   struct IndexEntry {
     std::uint64_t time, offset;
   };
-  struct ChunkIndex {
-    std::uint64_t begin, end, offset, length;
-    std::map<std::uint16_t, std::uint64_t> indexes;  // where the message index of each channel is
-    std::uint64_t indexes_length, size;
-  };
   struct Placed {  // an attachment or metadata, by the record that will index it
     std::uint8_t opcode;
     Bytes index;
@@ -70,10 +66,10 @@ class Writer {
   std::uint64_t chunk_begin_ = 0, chunk_end_ = 0;
   std::vector<Bytes> schemas_, channels_;  // their records' contents
   std::map<std::uint16_t, std::uint64_t> counts_;
-  std::vector<ChunkIndex> chunks_;
+  Spill chunk_indexes_;  // their records
   std::vector<Placed> placed_;
   std::uint64_t messages_ = 0, begin_ = 0, end_ = 0;
-  std::uint32_t attachments_ = 0, metadata_ = 0;
+  std::uint32_t attachments_ = 0, metadata_ = 0, chunks_ = 0;
 };
 
 }  // namespace interlace::mcap

@@ -113,6 +113,19 @@ TEST(Mcap, SaysWhatIsWrong) {
   EXPECT_EQ(read(huge).error, "byte 8: a record of 9223372036854775807 bytes, at most 268435456 are read");
 }
 
+TEST(Mcap, AChangedByteOfAChunkIsNoticedAndThePlaceNamed) {
+  const std::string whole = sample();
+  const auto at = whole.find("message 7");
+  std::string changed = whole;
+  changed[at] = 'M';
+  const Found found = read(changed);
+  ASSERT_TRUE(found.error);
+  EXPECT_EQ(found.messages.size(), 5) << "the chunk before is whole";
+  EXPECT_NE(found.error->find("a chunk's checksum does not agree"), std::string::npos) << *found.error;
+  EXPECT_EQ(found.error->rfind("byte ", 0), 0);
+  EXPECT_LT(std::stoul(found.error->substr(5)), at);
+}
+
 TEST(Mcap, AFullDiskIsNoticed) {
   std::ostringstream out;
   Writer writer{out, "test"};
