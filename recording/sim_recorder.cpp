@@ -34,6 +34,7 @@ class SimRecorder : public sim::Recording {
     last_ = std::max(last_, at);
     out_->write(topic, nanoseconds_of(at), nanoseconds_of(at), dds::encode(message));
   }
+  void write_journal(model::Instant now);
   void write_call(model::Instant now, const model::PlannerEvent& event, const core::Decisions& decisions);
 
   std::unique_ptr<RecordingWriter> out_;
@@ -66,6 +67,7 @@ void SimRecorder::listen(sim::VirtualOptions& options) {
     state.fingerprint = fingerprint_;
     state.incarnation = kVirtual;
     write(dds::topics::planner_state(cell_), s.at, state);
+    write_journal(s.at);
   };
 }
 
@@ -82,13 +84,17 @@ void SimRecorder::write_call(model::Instant now, const model::PlannerEvent& even
     write(dds::topics::dispatch(cell_, d.robot), now, dds::DispatchMessage{kVirtual, fingerprint_, d});
   for (const auto& s : decisions.statuses) write(dds::topics::command_status(cell_, s.robot), now, dds::StatusMessage{kVirtual, s});
   journal_->note(now, event, decisions);
-  if (!journal_->full()) return;
-  if (const auto batch = journal_->take()) write(dds::topics::planner_journal(cell_), now, *batch);
+  while (journal_->full()) write(dds::topics::planner_journal(cell_), now, journal_->take().value());
+}
+
+/// All calls so far.
+void SimRecorder::write_journal(model::Instant now) {
+  while (const auto message = journal_->take()) write(dds::topics::planner_journal(cell_), now, *message);
 }
 
 std::optional<std::string> SimRecorder::close() {
   if (journal_) {
-    if (const auto batch = journal_->take()) write(dds::topics::planner_journal(cell_), last_, *batch);
+    write_journal(last_);
   }
   if (out_->close()) return std::nullopt;
   return out_->error();

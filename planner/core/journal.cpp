@@ -120,6 +120,21 @@ class Digest {
   std::uint64_t hash_ = 14695981039346656037U;
 };
 
+constexpr std::size_t kHead = 512;  // of a message, without its calls [bytes]
+
+/// The room a call takes on the wire at most: all names and texts as long as they may be [bytes].
+struct Size {
+  static constexpr std::size_t kCall = 64, kRotation = 72, kName = 72, kCommand = 640, kEntry = 400;
+
+  std::size_t operator()(const model::ClientRequest& request) const {
+    const auto* replaced = std::get_if<model::QueueReplaced>(&request);
+    return kCall + kRotation + kCommand + (replaced ? replaced->commands.size() * (kEntry + kRotation) : 0);
+  }
+  std::size_t operator()(const model::PostureReported& p) const { return kCall + kRotation + 400 + p.holds.size() * kName; }
+  std::size_t operator()(const model::ExecutionReported& e) const { return kCall + 600 + e.holds.size() * kName; }
+  std::size_t operator()(const model::TimePassed& /*nothing*/) const { return kCall; }
+};
+
 }  // namespace
 
 model::PlannerSettings settings_of(const PlannerOptions& o) {
@@ -172,19 +187,21 @@ Decisions apply(Planner& planner, const model::PlannerEvent& event, Instant now)
 }
 
 void JournalKeeper::note(Instant now, model::PlannerEvent event, const Decisions& decisions) {
-  ++weight_;
-  if (const auto* request = std::get_if<model::ClientRequest>(&event)) {
-    if (const auto* replaced = std::get_if<model::QueueReplaced>(request)) weight_ += replaced->commands.size();
+  const std::size_t size = std::visit(Size{}, event);
+  if (messages_.empty() || messages_.back().size() >= kMostCalls || size_ + size > kLargest) {
+    messages_.emplace_back();
+    size_ = kHead;
   }
-  batch_.calls.push_back({now, std::move(event), digest_of(decisions)});
+  size_ += size;
+  messages_.back().push_back({now, std::move(event), digest_of(decisions)});
 }
 
 std::optional<model::PlannerJournal> JournalKeeper::take() {
-  if (batch_.calls.empty()) return std::nullopt;
-  model::PlannerJournal taken = batch_;
-  batch_.first += batch_.calls.size();
-  batch_.calls.clear();
-  weight_ = 0;
+  if (messages_.empty()) return std::nullopt;
+  model::PlannerJournal taken = head_;
+  taken.calls = std::move(messages_.front());
+  messages_.pop_front();
+  head_.first += taken.calls.size();
   return taken;
 }
 

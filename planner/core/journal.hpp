@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
-#include <string>
+#include <vector>
 
 #include "common/model/journal.hpp"
 #include "planner/core/planner.hpp"
@@ -20,26 +22,32 @@ namespace interlace::core {
 /// Tells `planner` what `event` says.
 [[nodiscard]] Decisions apply(Planner& planner, const model::PlannerEvent& event, Instant now);
 
-/// Numbers a planner's calls and gathers them into messages of bounded size. Pure.
+/// Numbers a planner's calls and gathers them into messages that each fit into one datagram. Pure.
 class JournalKeeper {
  public:
+  /// No message takes more bytes than this on the wire.
+  static constexpr std::size_t kLargest = 56 * 1024;
+  /// Nor has it more calls.
+  static constexpr std::size_t kMostCalls = 64;
+
   /// `head`: everything but `first` and `calls`.
-  explicit JournalKeeper(model::PlannerJournal head) : batch_(std::move(head)) {}
+  explicit JournalKeeper(const model::PlannerJournal& head) : head_(head) {}
 
   /// The planner was told `event` and decided `decisions`.
   void note(Instant now, model::PlannerEvent event, const Decisions& decisions);
 
-  /// take() should not wait any longer: more would become too large to send.
-  [[nodiscard]] bool full() const { return weight_ >= kFull; }
+  /// The next message has no room for more.
+  [[nodiscard]] bool full() const { return messages_.size() > 1 || (!messages_.empty() && messages_.front().size() >= kMostCalls); }
 
-  /// The calls since the last take(); empty when there were none.
+  [[nodiscard]] bool empty() const { return messages_.empty(); }
+
+  /// The next message: the oldest calls that were not taken yet; empty when there are none.
   [[nodiscard]] std::optional<model::PlannerJournal> take();
 
  private:
-  static constexpr std::size_t kFull = 64;  // commands and postures: with one replacement more they still fit into one datagram
-
-  model::PlannerJournal batch_;
-  std::size_t weight_ = 0;
+  model::PlannerJournal head_;                            // of the next message
+  std::deque<std::vector<model::PlannerCall>> messages_;  // the last one has room
+  std::size_t size_ = 0;                                  // of the last one, at most [bytes]
 };
 
 }  // namespace interlace::core

@@ -14,18 +14,23 @@ JournalWriter::JournalWriter(dds::Participant& participant, const model::Planner
     : keeper_(head), writer_(participant, dds::topics::planner_journal(head.cell)) {}
 
 void JournalWriter::send_when_due(Clock::time_point now) {
+  while (keeper_.full()) send_one();
   if (now < next_) return;
   next_ = now + kJournalPeriod;
-  send();
+  send_all();
 }
 
-void JournalWriter::send() {
-  const auto batch = keeper_.take();
-  if (!batch) return;
-  const bool sent = writer_.write(*batch);
+void JournalWriter::send_all() {
+  while (!keeper_.empty()) send_one();
+}
+
+void JournalWriter::send_one() {
+  const auto message = keeper_.take();
+  if (!message) return;
+  const bool sent = writer_.write(*message);
   if (!sent && !failing_) {
     app::log(app::LogLevel::warning, "journal_gap",
-             {{"first", batch->first}, {"calls", batch->calls.size()}, {"why", writer_.last_refusal()}});
+             {{"first", message->first}, {"calls", message->calls.size()}, {"why", writer_.last_refusal()}});
   }
   failing_ = !sent;
 }

@@ -10,8 +10,9 @@
 
 namespace interlace::daemon {
 
-/// Says on `planner_journal` what the planner was told and decided, ten times a second. Waits for nobody: what cannot be sent is dropped,
-/// and listeners see the gap in the numbers. Not thread-safe.
+/// Says on `planner_journal` what the planner was told and decided, ten times a second and whenever a message is full. Takes notes while
+/// the planner works and sends when it has nothing else to do. Waits for nobody: what cannot be sent is dropped, and listeners see the gap
+/// in the numbers. Not thread-safe.
 class JournalWriter {
  public:
   using Clock = std::chrono::steady_clock;
@@ -22,15 +23,16 @@ class JournalWriter {
   template <typename Event>
   void note(model::Instant now, const Event& event, const core::Decisions& decisions) {
     keeper_.note(now, event, decisions);
-    if (keeper_.full()) send();
   }
 
-  /// Sends when a tenth of a second has passed since it last did.
+  /// Sends full messages, and all there is when a tenth of a second has passed since it last did.
   void send_when_due(Clock::time_point now);
-  /// Sends what there is.
-  void send();
+  /// Sends all there is.
+  void send_all();
 
  private:
+  void send_one();
+
   core::JournalKeeper keeper_;
   dds::Writer<model::PlannerJournal> writer_;
   Clock::time_point next_{};

@@ -131,7 +131,7 @@ void PlannerNode::run() {
     }
     journal_.send_when_due(t);
   }
-  journal_.send();
+  journal_.send_all();
   const auto decisions = app::statistics_of(decision_times_);
   const auto maps = planner_.maps().statistics();
   log(LogLevel::info, "stopped",

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "common/dds/codec.hpp"
+#include "planner/core/journal.hpp"
 #include "tests/integration/dds/samples.hpp"
 #include "tests/support/seed.hpp"
 
@@ -91,6 +92,36 @@ TEST(PlannerJournal, CutOffOrChangedIsReadOrRefusedButNeverMore) {
     for (std::size_t n = 1 + seed.below(4); n > 0; --n) changed[seed.below(changed.size())] = static_cast<std::uint8_t>(seed.below(256));
     const auto got = dds::decode<model::PlannerJournal>(changed, "cell");
     ASSERT_TRUE(got || !got.error().empty());
+  }
+}
+
+/// What JournalKeeper reckons with: the largest messages it makes fit into one datagram.
+TEST(PlannerJournal, TheLargestMessagesFitIntoADatagram) {
+  const std::string name(64, 'n');
+  model::PostureReported posture;
+  posture.robot = model::RobotName{name};
+  posture.motion = model::CommandId{name};
+  posture.holds.assign(32, model::ToolName{name});
+  model::ExecutionReported report;
+  report.id = model::CommandId{name};
+  report.robot = model::RobotName{name};
+  report.text = std::string(256, 't');
+  report.holds = posture.holds;
+  model::CommandSubmitted command;
+  command.id = model::CommandId{name};
+  command.robot = model::RobotName{name};
+  command.motion.tools = model::ToolChange{model::ToolName{name}, model::ToolName{name}, model::ToolTime::start};
+  command.deadline = 1;
+  const model::QueueReplaced replaced{command.id, command.robot, std::vector<model::CommandSubmitted>(100, command)};
+  const std::vector<model::PlannerEvent> events{posture, report, model::ClientRequest{command}, model::ClientRequest{replaced}};
+  for (std::size_t first = 0; first < events.size(); ++first) {
+    model::PlannerJournal head = journal();
+    head.cell = name;
+    head.settings.strategy = head.settings.escape_prefix = name;
+    head.calls.clear();
+    core::JournalKeeper keeper{head};
+    for (std::size_t i = 0; i < 300; ++i) keeper.note({}, events[i % 5 == 0 ? first : i % 4], {});
+    while (const auto message = keeper.take()) EXPECT_LE(dds::encode(*message).size(), core::JournalKeeper::kLargest) << first;
   }
 }
 
