@@ -26,11 +26,15 @@ RecordingWriter::RecordingWriter(std::string path, std::ofstream file)
 
 void RecordingWriter::describe(mcap::Text values) {
   values["interlace_version"] = app::version();
+  errno = 0;
   writer_.add(mcap::Metadata{kMetadata, std::move(values)});
+  (void)check();
 }
 
 void RecordingWriter::attach_cell(const std::string& text, std::uint64_t log_time) {
+  errno = 0;
   writer_.add(mcap::Attachment{log_time, kCellFile, "application/yaml", text});
+  (void)check();
 }
 
 std::uint16_t RecordingWriter::channel(const std::string& topic, const std::string& type) {
@@ -43,6 +47,13 @@ std::uint16_t RecordingWriter::channel(const std::string& topic, const std::stri
   return channels_[topic] = writer_.add_channel(schema->second, topic, kMessageEncoding);
 }
 
+void RecordingWriter::write(std::uint16_t channel, std::uint64_t log_time, std::uint64_t publish_time, const mcap::Bytes& cdr) {
+  errno = 0;
+  writer_.write(channel, log_time, publish_time, cdr);
+  (void)check();
+}
+
+/// The first failure is kept, with what the system said then.
 bool RecordingWriter::check() {
   if (writer_.ok()) return true;
   if (error_.empty())
@@ -59,8 +70,10 @@ bool RecordingWriter::flush() {
 bool RecordingWriter::close() {
   errno = 0;
   writer_.close();
+  if (!check()) return false;
   file_.close();
-  return check();
+  if (!file_) error_ = fmt::format("{}: cannot be written completely: {}", path_, std::strerror(errno));
+  return error_.empty();
 }
 
 }  // namespace interlace::recording

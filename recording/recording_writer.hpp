@@ -35,7 +35,7 @@ class RecordingWriter {
   /// A message as it was sent. Times in nanoseconds since 1970 (of virtual time: since its begin).
   template <typename Message>
   void write(const dds::Topic<Message>& topic, std::uint64_t log_time, std::uint64_t publish_time, const mcap::Bytes& cdr) {
-    writer_.write(channel(topic.name, dds::type_name<Message>()), log_time, publish_time, cdr);
+    write(channel(topic.name, dds::type_name<Message>()), log_time, publish_time, cdr);
   }
 
   /// Makes all so far readable, whatever happens to this process. False: the disk is full or gone, see error().
@@ -49,6 +49,7 @@ class RecordingWriter {
 
  private:
   RecordingWriter(std::string path, std::ofstream file);
+  void write(std::uint16_t channel, std::uint64_t log_time, std::uint64_t publish_time, const mcap::Bytes& cdr);
   [[nodiscard]] std::uint16_t channel(const std::string& topic, const std::string& type);
   bool check();
 

@@ -1,17 +1,26 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
+#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
 #include "common/dds/codec.hpp"
+#include "common/dds/participant.hpp"
+#include "common/dds/writer.hpp"
+#include "planner/core/journal.hpp"
 #include "recording/recording_reader.hpp"
 #include "recording/recording_writer.hpp"
+#include "recording/replay.hpp"
 #include "tests/e2e/cells.hpp"
 #include "tests/e2e/running_cell.hpp"
 #include "tests/e2e/scratch.hpp"
+#include "tests/integration/dds/samples.hpp"
 
 // Recordings of real processes and of virtual time: read by a library that is not ours, replayed, and changed to see that it is noticed.
 namespace interlace::test {
@@ -99,8 +108,14 @@ std::vector<RecordedSample> read_all(const std::string& file, bool expect_cut_of
     if (!next || !*next) break;
     samples.push_back(std::move(**next));
   }
-  if (reader) EXPECT_EQ((*reader)->cut_off(), expect_cut_off);
+  EXPECT_TRUE(!reader || (*reader)->cut_off() == expect_cut_off);
   return samples;
+}
+
+std::vector<std::string> read_with_node(const std::string& file, const std::string& mode) {
+  std::vector<std::string> arguments{INTERLACE_NODE, std::string{INTERLACE_MCAP_DIR} + "/read.mjs", file};
+  if (!mode.empty()) arguments.push_back(mode);
+  return arguments;
 }
 
 /// Lines of our reader and of the independent one are the same.
@@ -113,7 +128,7 @@ void expect_same_as_node(const std::string& file, bool cut_off = false) {
     ours << '\n';
   }
   if (!cut_off) ours << "indexed " << samples.size() << ' ' << samples.size() << '\n';
-  Process node{{INTERLACE_NODE, std::string{INTERLACE_MCAP_DIR} + "/read.mjs", file, cut_off ? "--stream" : ""}, true};
+  Process node{read_with_node(file, cut_off ? "--stream" : ""), true};
   ASSERT_EQ(node.wait(std::chrono::seconds{60}), 0) << node.errors();
   std::istringstream a{ours.str()};
   std::istringstream b{node.output()};
@@ -152,17 +167,241 @@ std::string simulated(const Scratch& scratch) {
   return file;
 }
 
+/// Waits until `holds`; whether it does.
+template <typename Condition>
+bool until(const Condition& holds) {
+  for (const auto end = std::chrono::steady_clock::now() + kPatience; std::chrono::steady_clock::now() < end;) {
+    if (holds()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  }
+  return holds();
+}
+
+/// A recorder of `cell_file`, once it has told that it records.
+std::unique_ptr<Process> recorder_of(const std::string& file, std::uint32_t domain, const std::string& cell_file = kCell) {
+  auto recorder = std::make_unique<Process>(
+      std::vector<std::string>{kClient, "record", file, "--cell", cell_file, "--domain", std::to_string(domain)}, true);
+  EXPECT_TRUE(until([&] { return recorder->output().find("recording cell") != std::string::npos; })) << recorder->errors();
+  return recorder;
+}
+
+/// Messages that can be read of a file that is still written to.
+std::size_t messages_in(const std::string& file) {
+  std::size_t count = 0;
+  auto reader = RecordingReader::open(file);
+  while (reader) {
+    const auto next = (*reader)->next();
+    if (!next || !*next) break;
+    ++count;
+  }
+  return count;
+}
+
+std::string hex(const std::vector<std::uint8_t>& bytes) {
+  std::string text;
+  for (const std::uint8_t b : bytes) text += fmt::format("{:02x}", b);
+  return text;
+}
+
+/// Publishes on one topic and keeps what it published.
+template <typename Message>
+struct Publisher {
+  Publisher(dds::Participant& participant, const dds::Topic<Message>& its_topic) : topic(its_topic), writer(participant, its_topic) {}
+
+  void publish(const Message& message) {
+    ASSERT_TRUE(writer.write(message)) << writer.last_refusal();
+    const std::vector<std::uint8_t> bytes = dds::encode(message);
+    lines.push_back(fmt::format("{} {} {}", topic.name, lines.size(), hex(dds::encode(dds::decode<Message>(bytes, topic.owner).value()))));
+  }
+  /// A line of read.mjs --bytes with its gaps between members made 0: what was in them on the way has no meaning.
+  [[nodiscard]] std::string plain(const std::string& line) const {
+    const auto begin = line.rfind(' ') + 1;
+    std::vector<std::uint8_t> bytes;
+    for (std::size_t i = begin; i + 1 < line.size(); i += 2)
+      bytes.push_back(static_cast<std::uint8_t>(std::stoi(line.substr(i, 2), nullptr, 16)));
+    const auto message = dds::decode<Message>(bytes, topic.owner);
+    return line.substr(0, begin) + (message ? hex(dds::encode(*message)) : message.error());
+  }
+
+  dds::Topic<Message> topic;
+  dds::Writer<Message> writer;
+  std::vector<std::string> lines;  // as read.mjs --bytes prints them and plain() makes them
+};
+
+TEST(Recording, HoldsEveryMessageThatWasPublishedInItsOrder) {
+  const Scratch scratch;
+  const std::string file = scratch.path("run.mcap");
+  const std::uint32_t domain = unique_domain();
+  const auto recorder = recorder_of(file, domain);
+  dds::Participant participant{{domain, "publisher"}};
+  const std::string cell = "exp-4-2";
+  Publisher commands{participant, dds::topics::command(cell, kRobot)};
+  Publisher statuses{participant, dds::topics::command_status(cell, kRobot)};
+  Publisher dispatches{participant, dds::topics::dispatch(cell, kRobot)};
+  Publisher executions{participant, dds::topics::execution(cell, kRobot)};
+  Publisher postures{participant, dds::topics::posture(cell, kRobot)};
+  Publisher states{participant, dds::topics::planner_state(cell)};
+  ASSERT_TRUE(until([&] {
+    return commands.writer.matched() + statuses.writer.matched() + dispatches.writer.matched() + executions.writer.matched() +
+               postures.writer.matched() + states.writer.matched() ==
+           6;
+  }));
+  constexpr std::size_t kRounds = 200;
+  for (std::size_t i = 0; i < kRounds; ++i) {
+    commands.publish(i % 2 == 0 ? linear_command(fmt::format("c-{}", i)) : replace_command());
+    statuses.publish(status());
+    dispatches.publish(i % 3 == 0 ? execute() : i % 3 == 1 ? withdrawal() : heartbeat());
+    executions.publish(execution());
+    dds::PostureMessage where = posture();
+    where.posture.at = at(0.01 * static_cast<double>(i));
+    postures.publish(where);
+    states.publish(planner_state(cell));
+    std::this_thread::sleep_for(std::chrono::milliseconds{2});  // a state is sent again only if nothing newer took its place
+  }
+  ASSERT_TRUE(until([&] { return messages_in(file) == 6 * kRounds; })) << messages_in(file);
+  recorder->kill(SIGINT);
+  ASSERT_EQ(recorder->wait(kPatience), 0) << recorder->errors();
+
+  Process node{read_with_node(file, "--bytes"), true};
+  ASSERT_EQ(node.wait(std::chrono::seconds{60}), 0) << node.errors();
+  std::map<std::string, std::vector<std::string>> read;  // by topic
+  std::istringstream all{node.output()};
+  for (std::string line; std::getline(all, line);) read[line.substr(0, line.find(' '))].push_back(line);
+  const auto expect = [&](const auto& publisher) {
+    const auto& lines = read[publisher.topic.name];
+    ASSERT_EQ(lines.size(), publisher.lines.size()) << publisher.topic.name;
+    for (std::size_t i = 0; i < lines.size(); ++i) ASSERT_EQ(publisher.plain(lines[i]), publisher.lines[i]);
+  };
+  expect(commands);
+  expect(statuses);
+  expect(dispatches);
+  expect(executions);
+  expect(postures);
+  expect(states);
+  EXPECT_EQ(read.size(), 6);
+}
+
+/// What was recorded of `Message`, robot by robot, as lines.
+template <typename Message>
+std::map<std::string, std::vector<std::string>> recorded_of(const std::vector<RecordedSample>& samples) {
+  std::map<std::string, std::vector<std::string>> lines;
+  for (const RecordedSample& s : samples) {
+    if (const auto* m = std::get_if<Message>(&s.message)) lines[s.topic].push_back(hex(dds::encode(*m)));
+  }
+  return lines;
+}
+
+/// The bytes a reader would make of `message` again.
+template <typename Message>
+std::string as_received(const Message& message, const model::RobotName& robot) {
+  return hex(dds::encode(dds::decode<Message>(dds::encode(message), robot.str()).value()));
+}
+
+TEST(Recording, OfARunningCellHasAllThatThePlannerDecided) {
+  const Scratch scratch;
+  const std::string file = scratch.path("run.mcap");
+  const std::string cell_file = scratch.file("cell.yaml", cell_text());
+  RunningCell cell{unique_domain(), "fast", cell_file};
+  const auto recorder = recorder_of(file, cell.domain(), cell_file);
+  ASSERT_TRUE(cell.start({"--strategy", "lookahead"}));
+  // Every kind of request, with priorities and deadlines.
+  const std::string program = scratch.file("program.yaml", table_4_4());
+  ASSERT_EQ(outcome(cell.send("r1", "out", {350, 0, 200}, {"--priority", "3", "--deadline", "0.01"})).exit_code, 0);
+  ASSERT_EQ(cell.ask({"hold", "r1"}).exit_code, 0);
+  Process& in = cell.send("r2", "in", {350, 0, 200});
+  ASSERT_TRUE(until([&] { return (in.output() + in.errors()).find("held") != std::string::npos; }));
+  ASSERT_EQ(outcome(cell.send("r2", "last", {400, -250, 330}, {"--no-wait"})).exit_code, 0);
+  ASSERT_EQ(cell.ask({"cancel", "r2", "last"}).exit_code, 0);
+  ASSERT_EQ(cell.ask({"resume", "r1"}).exit_code, 0);
+  ASSERT_EQ(outcome(in).exit_code, 0);
+  const std::string queue = "interlace: 1\nunits: {length: mm, angle: deg}\nprogram:\n  r1:\n    - " + linear(420, 250, 330) + "\n";
+  ASSERT_EQ(cell.ask({"replace", "r1", scratch.file("queue.yaml", queue)}).exit_code, 0);
+  ASSERT_EQ(cell.ask({"run", program}).exit_code, 0);
+  ASSERT_EQ(cell.ask({"stop"}).exit_code, 0);
+  cell.planner().kill(SIGTERM);
+  ASSERT_EQ(cell.planner().wait(kPatience), 0);
+  recorder->kill(SIGINT);
+  ASSERT_EQ(recorder->wait(kPatience), 0) << recorder->errors();
+
+  const auto recorded = recording::read_recorded(file, {});
+  ASSERT_TRUE(recorded) << recorded.error();
+  ASSERT_EQ(recorded->lives.size(), 1);
+  const recording::PlannerLife& life = recorded->lives[0];
+  EXPECT_EQ(life.settings.strategy, "lookahead");
+  const auto model_cell = std::make_shared<const model::Cell>(recorded->cell.cell);
+  const recording::Replay replay = recording::replay(model_cell, life);
+  ASSERT_FALSE(replay.difference) << replay.difference->told << " -> " << replay.difference->decided;
+
+  // What the planner decides again is what it published then, and nothing of it was lost.
+  std::map<std::string, std::vector<std::string>> statuses, orders, requests, reports;
+  core::Planner planner{model_cell, core::options_of(life.settings)};
+  for (const model::PlannerCall& call : life.calls) {
+    const core::Decisions d = core::apply(planner, call.event, call.now);
+    const auto order = [&](const auto& o) {
+      orders[dds::topics::dispatch("fast", o.robot).name].push_back(
+          as_received(dds::DispatchMessage{life.incarnation, life.fingerprint, o}, o.robot));
+    };
+    for (const auto& w : d.withdrawals) order(w);
+    for (const auto& x : d.dispatches) order(x);
+    for (const auto& s : d.statuses)
+      statuses[dds::topics::command_status("fast", s.robot).name].push_back(as_received(dds::StatusMessage{life.incarnation, s}, s.robot));
+    if (const auto* request = std::get_if<model::ClientRequest>(&call.event)) {
+      const model::RobotName robot = std::visit([](const auto& r) { return r.robot; }, *request);
+      requests[dds::topics::command("fast", robot).name].push_back(std::visit([](const auto& r) { return r.id.str(); }, *request));
+    }
+    if (const auto* report = std::get_if<model::ExecutionReported>(&call.event))
+      reports[dds::topics::execution("fast", report->robot).name].push_back(report->id.str() + to_string(report->state));
+  }
+  std::vector<RecordedSample> samples = read_all(file);
+  std::map<std::string, std::vector<std::string>> recorded_requests, recorded_reports;
+  for (const RecordedSample& s : samples) {
+    if (const auto* c = std::get_if<dds::CommandMessage>(&s.message))
+      recorded_requests[s.topic].push_back(std::visit([](const auto& r) { return r.id.str(); }, c->request));
+    if (const auto* e = std::get_if<dds::ExecutionMessage>(&s.message))
+      recorded_reports[s.topic].push_back(e->report.id.str() + to_string(e->report.state));
+  }
+  samples.erase(std::remove_if(samples.begin(), samples.end(),
+                               [](const RecordedSample& s) {
+                                 const auto* m = std::get_if<dds::DispatchMessage>(&s.message);
+                                 return m && std::holds_alternative<dds::Heartbeat>(m->order);
+                               }),
+                samples.end());
+  EXPECT_EQ(recorded_of<dds::StatusMessage>(samples), statuses);
+  EXPECT_EQ(recorded_of<dds::DispatchMessage>(samples), orders);
+  EXPECT_EQ(recorded_reports, reports);
+  // A client that comes and goes may be heard by the planner before it is by the recorder; the journal has what it asked for anyway.
+  for (const auto& [topic, ids] : recorded_requests) {
+    for (const std::string& id : ids) EXPECT_EQ(std::count(requests[topic].begin(), requests[topic].end(), id) > 0, true) << topic << id;
+  }
+  EXPECT_GE(requests.size(), 2);
+}
+
+TEST(Recording, ThatIsStoppedHoldsNobodyUp) {
+  const Scratch scratch;
+  const std::string file = scratch.path("run.mcap");
+  const std::string cell_file = scratch.file("cell.yaml", cell_text());
+  RunningCell cell{unique_domain(), "fast", cell_file};
+  const auto recorder = recorder_of(file, cell.domain(), cell_file);
+  ASSERT_TRUE(cell.start());
+  recorder->kill(SIGSTOP);
+  EXPECT_EQ(cell.ask({"run", scratch.file("program.yaml", table_4_4(4))}).exit_code, 0);
+  recorder->kill(SIGCONT);
+  recorder->kill(SIGINT);
+  ASSERT_EQ(recorder->wait(kPatience), 0) << recorder->errors();
+  EXPECT_GT(read_all(file).size(), 0);
+}
+
 TEST(Recording, OfARunningCellOpensInAnotherLibraryAndReplaysToTheSameDecisions) {
   const Scratch scratch;
   const std::string file = scratch.path("run.mcap");
   RunningCell cell{unique_domain(), "exp-4-2", kCell};
-  Process recorder{{kClient, "record", file, "--cell", kCell, "--domain", std::to_string(cell.domain())}, true};
+  const auto recorder = recorder_of(file, cell.domain());
   ASSERT_TRUE(cell.start());
   ASSERT_EQ(cell.ask({"run", scratch.file("program.yaml", kShort)}).exit_code, 0);
   cell.planner().kill(SIGTERM);
   ASSERT_EQ(cell.planner().wait(kPatience), 0);
-  recorder.kill(SIGTERM);
-  ASSERT_EQ(recorder.wait(kPatience), 0) << recorder.errors();
+  recorder->kill(SIGTERM);
+  ASSERT_EQ(recorder->wait(kPatience), 0) << recorder->errors();
 
   expect_same_as_node(file);
   const Outcome replay = run_client({"replay", file});
@@ -175,11 +414,12 @@ TEST(Recording, OfAKilledRecorderIsReadUpToItsLastSecond) {
   const Scratch scratch;
   const std::string file = scratch.path("run.mcap");
   RunningCell cell{unique_domain(), "exp-4-2", kCell};
-  Process recorder{{kClient, "record", file, "--cell", kCell, "--domain", std::to_string(cell.domain())}, true};
+  const auto recorder = recorder_of(file, cell.domain());
   ASSERT_TRUE(cell.start());
   ASSERT_EQ(cell.ask({"run", scratch.file("program.yaml", kShort)}).exit_code, 0);
-  std::this_thread::sleep_for(std::chrono::seconds{1});
-  recorder.kill(SIGKILL);
+  const std::size_t so_far = messages_in(file);
+  ASSERT_TRUE(until([&] { return messages_in(file) > so_far; }));  // the next part was written
+  recorder->kill(SIGKILL);
   expect_same_as_node(file, true);
   EXPECT_EQ(run_client({"replay", file}).exit_code, 0);
 }
@@ -239,6 +479,41 @@ TEST(Replay, RefusesARecordingThatBeginsTooLateOrHasAGap) {
   EXPECT_NE(gap.errors.find("gap"), std::string::npos) << gap.errors;
   EXPECT_EQ(run_client({"replay", kCell}).exit_code, 2);
   EXPECT_EQ(run_client({"replay", scratch.path("nothing.mcap")}).exit_code, 2);
+}
+
+TEST(Replay, RefusesABrokenFileAndNamesThePlace) {
+  const Scratch scratch;
+  const std::string whole = read_text(simulated(scratch));
+  std::string flipped = whole;
+  flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 0x40);
+  const Outcome broken = run_client({"replay", scratch.file("flipped.mcap", flipped)});
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_TRUE(broken.says("flipped.mcap: byte ") && broken.says("checksum does not agree")) << broken;
+  const Outcome cut = run_client({"replay", scratch.file("cut.mcap", whole.substr(0, whole.size() / 2))});
+  EXPECT_EQ(cut.exit_code, 0) << "what is whole can be replayed\n" << cut;
+  EXPECT_TRUE(cut.says("was not ended properly, it is whole up to byte ")) << cut;
+  const Outcome head = run_client({"replay", scratch.file("head.mcap", whole.substr(0, 5))});
+  EXPECT_EQ(head.exit_code, 2);
+  EXPECT_TRUE(head.says("head.mcap: byte 0: not an MCAP file")) << head;
+}
+
+/// Requests of every kind come back from the file and are decided as they were, whatever the strategy.
+TEST(Replay, OfEveryStrategyIsIdentical) {
+  const Scratch scratch;
+  const std::string cell = scratch.file("cell.yaml", cell_text());
+  const std::string program = scratch.file("program.yaml", table_4_4() +
+                                                               "events:\n"
+                                                               "  - {at: 0.5, hold: r1}\n  - {at: 1.5, resume: r1}\n"
+                                                               "  - {at: 0.7, cancel: r2, command: 3}\n"
+                                                               "  - at: 2\n    replace: r2\n    by:\n      - " +
+                                                               linear(400, -250, 330) + "\n");
+  Process sim{{kSim, cell, program, "--strategy", "all", "--record", scratch.path("run.mcap")}, true};
+  ASSERT_TRUE(sim.wait(3 * kPatience)) << sim.output();
+  for (const char* strategy : {"direct", "zone", "eef-map", "acm", "event", "lookahead"}) {
+    const Outcome o = run_client({"replay", scratch.path(std::string{"run."} + strategy + ".mcap")});
+    EXPECT_EQ(o.exit_code, 0) << strategy << '\n' << o;
+    EXPECT_TRUE(o.says("all identical")) << o;
+  }
 }
 
 TEST(Replay, ShowsWhatWouldHaveHappened) {

@@ -1,6 +1,7 @@
 // Reads a recording with @mcap/core and @foxglove/rosmsg2-serialization and prints one line for each message, in the order of the file:
 // topic, log time, publish time, type and some fields; doubles as their bits. Then the number of messages that the indexed reader finds.
-// A recording that was cut off has no index: --stream leaves that out.
+// A recording that was cut off has no index: --stream leaves that out. --bytes prints of each message instead its topic, its number on that
+// topic and its bytes.
 import { open, readFile } from "node:fs/promises";
 import { McapIndexedReader, McapStreamReader } from "@mcap/core";
 import { parse } from "@foxglove/rosmsg";
@@ -36,13 +37,17 @@ for (let record; (record = stream.nextRecord()); ) {
     channels.set(record.id, record);
   } else if (record.type === "Message") {
     const channel = channels.get(record.channelId);
+    if (mode === "--bytes") {
+      lines.push(`${channel.topic} ${record.sequence} ${Buffer.from(record.data).toString("hex")}`);
+      continue;
+    }
     const { name, reader } = schemas.get(channel.schemaId);
     const message = reader.readMessage(record.data);
     lines.push([channel.topic, record.logTime, record.publishTime, name, ...told[name](message)].join(" "));
   }
 }
 
-if (mode !== "--stream") {
+if (!mode) {
   const handle = await open(file);
   const readable = {
     size: async () => BigInt((await handle.stat()).size),
