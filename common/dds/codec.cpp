@@ -15,7 +15,7 @@ std::vector<std::uint8_t> encode(const Message& message) {
   static const auto type = make_type<WireOf<Message>>();
   SerializedPayload_t payload{type->getSerializedSizeProvider(&wire)()};
   std::fill_n(payload.data, payload.max_size, std::uint8_t{0});  // the gaps between members are not written
-  if (!type->serialize(&wire, &payload)) return {};  // it measured the room itself
+  if (!type->serialize(&wire, &payload)) return {};              // it measured the room itself
   return {payload.data, payload.data + payload.length};
 }
 
