@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "common/app/config/mesh_file.hpp"
 #include "monitor/clearance_observer.hpp"
+#include "recording/recorded_cell.hpp"
 #include "recording/recording_reader.hpp"
 #include "recording/replay.hpp"
 
@@ -40,14 +40,6 @@ class Lives {
  private:
   std::vector<PlannerLife> lives_;
 };
-
-/// The cell a recording is of: its own file, or the one that stands in for it.
-model::Result<app::LoadedCell, std::string> cell_of(const RecordingReader& reader, const std::string& path, const std::string& cell_file) {
-  const auto text = reader.cell_file();
-  auto loaded = text ? app::parse_cell(*text, path + ":cell.yaml", app::read_mesh_file) : app::load_cell(cell_file);
-  if (!loaded) return Failure{to_string(loaded.error())};
-  return std::move(*loaded);
-}
 
 /// Time of the first request, the origin of the run's report.
 model::Instant first_request(const PlannerLife& life) {
@@ -108,8 +100,7 @@ model::Result<Recorded, std::string> read_recorded(const std::string& path, cons
     }
   }
   if (lives.all().empty()) return Failure{fmt::format("{}: holds nothing of a planner's journal; {}", path, kHowTo)};
-  if (!(*reader)->cell_file() && cell_file.empty()) return Failure{path + ": the cell file is not in it; name it with --cell"};
-  auto cell = cell_of(**reader, path, cell_file);
+  auto cell = recorded_cell(**reader, path, cell_file);
   if (!cell) return Failure{cell.error()};
   for (const PlannerLife& life : lives.all()) {
     if (life.fingerprint != cell->fingerprint)

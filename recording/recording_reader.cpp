@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -51,8 +52,9 @@ model::Result<std::unique_ptr<RecordingReader>, std::string> RecordingReader::op
 model::Result<std::optional<RecordedMessage>, std::string> RecordingReader::decode(const mcap::Message& m) const {
   const mcap::Channel& channel = reader_.channels().at(m.channel);
   if (channel.schema == 0 || channel.encoding != kMessageEncoding) return std::optional<RecordedMessage>{};
-  const auto found = decoders().find(reader_.schemas().at(channel.schema).name);
-  if (found == decoders().end()) return std::optional<RecordedMessage>{};
+  const std::string& schema = reader_.schemas().at(channel.schema).name;
+  const auto found = decoders().find(schema);
+  if (found == decoders().end() || (!journal_ && schema == decoder<model::PlannerJournal>().first)) return std::optional<RecordedMessage>{};
   return found->second(m.data, owner_of(channel.topic));
 }
 
@@ -67,6 +69,19 @@ model::Result<std::optional<RecordedSample>, std::string> RecordingReader::next(
       return model::unexpected{fmt::format("{}: message {} of {}: {}", path_, (*message)->sequence, topic, decoded.error())};
     }
     if (*decoded) return RecordedSample{topic, (*message)->log_time, (*message)->publish_time, std::move(**decoded)};
+  }
+}
+
+model::Result<Extent, std::string> RecordingReader::skim() {
+  Extent extent;
+  for (;;) {
+    const auto message = reader_.next();
+    if (!message) return model::unexpected{path_ + ": " + message.error()};
+    if (!*message) return extent;
+    const std::uint64_t t = (*message)->log_time;
+    extent.from = extent.messages == 0 ? t : std::min(extent.from, t);
+    extent.until = std::max(extent.until, t);
+    ++extent.messages;
   }
 }
 

@@ -23,6 +23,12 @@ struct RecordedSample {
   RecordedMessage message;
 };
 
+/// When the first and the last of the messages in a file were received [ns].
+struct Extent {
+  std::uint64_t from = 0, until = 0;
+  std::uint64_t messages = 0;
+};
+
 /// Reads the messages of a cell from an MCAP file, in the order they were written. Every message is checked like one that comes from the
 /// wire; channels that are not ours are passed over. Not thread-safe.
 class RecordingReader {
@@ -31,6 +37,12 @@ class RecordingReader {
 
   /// The next one; empty at the end. An error names the file and what is wrong in it, and ends the reading.
   [[nodiscard]] model::Result<std::optional<RecordedSample>, std::string> next();
+
+  /// Reads over all that is left, and looks at nothing but the times. Errors as of next().
+  [[nodiscard]] model::Result<Extent, std::string> skim();
+
+  /// next() passes over the planner's journal, by far the largest part of a recording.
+  void leave_out_journal() { journal_ = false; }
 
   // Known once the first message was read.
   [[nodiscard]] std::optional<std::string> cell_file() const;
@@ -49,6 +61,7 @@ class RecordingReader {
   std::string path_;
   std::ifstream file_;
   mcap::Reader reader_;
+  bool journal_ = true;
 };
 
 }  // namespace interlace::recording

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "planner/core/journal.hpp"
 #include "recording/recording_writer.hpp"
@@ -22,8 +23,10 @@ std::uint64_t nanoseconds_of(model::Instant t) {
 /// dispatches, executions, the planner's state and its journal. Times are virtual ones, from 0 on.
 class SimRecorder : public sim::Recording {
  public:
-  SimRecorder(std::unique_ptr<RecordingWriter> out, std::string cell, std::uint64_t fingerprint)
-      : out_(std::move(out)), cell_(std::move(cell)), fingerprint_(fingerprint) {}
+  SimRecorder(std::unique_ptr<RecordingWriter> out, const app::LoadedCell& cell)
+      : out_(std::move(out)), cell_(cell.cell.name), fingerprint_(cell.fingerprint) {
+    for (const model::Robot& robot : cell.cell.robots) robots_.push_back(robot.name);
+  }
 
   void listen(sim::VirtualOptions& options) override;
   [[nodiscard]] std::optional<std::string> close() override;
@@ -34,12 +37,14 @@ class SimRecorder : public sim::Recording {
     last_ = std::max(last_, at);
     out_->write(topic, nanoseconds_of(at), nanoseconds_of(at), dds::encode(message));
   }
+  void write_heartbeats(model::Instant now);
   void write_journal(model::Instant now);
   void write_call(model::Instant now, const model::PlannerEvent& event, const core::Decisions& decisions);
 
   std::unique_ptr<RecordingWriter> out_;
   std::string cell_;
   std::uint64_t fingerprint_;
+  std::vector<model::RobotName> robots_;
   std::optional<core::JournalKeeper> journal_;
   model::Instant last_{};
 };
@@ -52,6 +57,7 @@ void SimRecorder::listen(sim::VirtualOptions& options) {
     head.incarnation = kVirtual;
     head.settings = core::settings_of(o);
     journal_.emplace(head);
+    write_heartbeats({});
   };
   options.on_call = [this](model::Instant now, const model::PlannerEvent& event, const core::Decisions& d) { write_call(now, event, d); };
   options.on_row = [this](const model::PostureReported& p) {
@@ -67,6 +73,7 @@ void SimRecorder::listen(sim::VirtualOptions& options) {
     state.fingerprint = fingerprint_;
     state.incarnation = kVirtual;
     write(dds::topics::planner_state(cell_), s.at, state);
+    write_heartbeats(s.at);
     write_journal(s.at);
   };
 }
@@ -87,15 +94,23 @@ void SimRecorder::write_call(model::Instant now, const model::PlannerEvent& even
   while (journal_->full()) write(dds::topics::planner_journal(cell_), now, journal_->take().value());
 }
 
+/// Who reads the recording learns from them what the planner's times mean.
+void SimRecorder::write_heartbeats(model::Instant now) {
+  for (const model::RobotName& robot : robots_) {
+    dds::Heartbeat beat;
+    beat.robot = robot;
+    beat.planner_received = beat.planner_sent = now;
+    write(dds::topics::dispatch(cell_, robot), now, dds::DispatchMessage{kVirtual, fingerprint_, beat});
+  }
+}
+
 /// All calls so far.
 void SimRecorder::write_journal(model::Instant now) {
   while (const auto message = journal_->take()) write(dds::topics::planner_journal(cell_), now, *message);
 }
 
 std::optional<std::string> SimRecorder::close() {
-  if (journal_) {
-    write_journal(last_);
-  }
+  if (journal_) write_journal(last_);
   if (out_->close()) return std::nullopt;
   return out_->error();
 }
@@ -111,7 +126,7 @@ model::Result<std::unique_ptr<Recording>, std::string> start_recording(const std
   if (!out) return model::unexpected{out.error()};
   (*out)->describe({{"cell", cell.cell.name}, {"fingerprint", fmt::format("{:016x}", cell.fingerprint)}, {"time", "virtual"}});
   (*out)->attach_cell(text, 0);
-  return std::make_unique<recording::SimRecorder>(std::move(*out), cell.cell.name, cell.fingerprint);
+  return std::make_unique<recording::SimRecorder>(std::move(*out), cell);
 }
 
 }  // namespace interlace::sim

@@ -2,10 +2,7 @@
 
 #include <atomic>
 #include <chrono>
-#include <map>
 #include <memory>
-#include <mutex>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -13,6 +10,7 @@
 #include "common/dds/participant.hpp"
 #include "common/dds/reader.hpp"
 #include "common/dds/wait.hpp"
+#include "monitor/daemon/asked.hpp"
 #include "monitor/live_view.hpp"
 #include "monitor/server/web_server.hpp"
 
@@ -43,15 +41,8 @@ class MonitorNode {
     dds::Reader<dds::ExecutionMessage> executions;
     dds::Reader<dds::PostureMessage> postures;
   };
-  /// What viewers ask, from the server's thread: one map at a time for each, the newest.
-  struct Asked {
-    std::set<ViewerId> snapshots;
-    std::map<ViewerId, model::CommandId> maps;
-  };
   void take_all();
   void show(Clock::time_point now);
-  void answer();
-  void on_request(ViewerId viewer, const ViewerRequest& request);
 
   app::LoadedCell cell_;
   LiveView view_;
@@ -59,7 +50,6 @@ class MonitorNode {
   dds::Reader<model::PlannerState> states_;
   std::vector<std::unique_ptr<Link>> links_;
   dds::Wait wait_;
-  std::mutex mutex_;  // of asked_
   Asked asked_;
   Clock::time_point next_pose_{};
   std::atomic<bool> stopping_{false};
