@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "common/mcap/reader.hpp"
+#include "common/mcap/spill.hpp"
 #include "common/mcap/writer.hpp"
 #include "tests/support/seed.hpp"
 
@@ -124,6 +125,19 @@ TEST(Mcap, AChangedByteOfAChunkIsNoticedAndThePlaceNamed) {
   EXPECT_NE(found.error->find("a chunk's checksum does not agree"), std::string::npos) << *found.error;
   EXPECT_EQ(found.error->rfind("byte ", 0), 0);
   EXPECT_LT(std::stoul(found.error->substr(5)), at);
+}
+
+TEST(Mcap, WhatWaitsForTheEndOfAFileComesBackInOrder) {
+  Spill spill;
+  EXPECT_TRUE(spill.drain([](const Bytes&) { FAIL() << "nothing was added"; }));
+  std::string added, taken;
+  for (int i = 0; i < 50'000; ++i) {
+    const std::string piece = "chunk " + std::to_string(i) + '\n';
+    added += piece;
+    spill.add(bytes(piece));
+  }
+  EXPECT_TRUE(spill.drain([&](const Bytes& piece) { taken.append(piece.begin(), piece.end()); }));
+  EXPECT_EQ(taken, added);
 }
 
 TEST(Mcap, AFullDiskIsNoticed) {
