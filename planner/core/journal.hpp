@@ -26,7 +26,7 @@ namespace interlace::core {
 class JournalKeeper {
  public:
   /// No message takes more bytes than this on the wire.
-  static constexpr std::size_t kLargest = 56 * 1024;
+  static constexpr std::size_t kLargest = std::size_t{56} * 1024;
   /// Nor has it more calls.
   static constexpr std::size_t kMostCalls = 64;
 
