@@ -29,9 +29,10 @@ Pairs pairs_of(const model::Cell& cell) {
 
 }  // namespace
 
-LiveView::LiveView(const app::LoadedCell& cell, LocalTime origin)
+LiveView::LiveView(const app::LoadedCell& cell, LocalTime origin, std::optional<double> recorded)
     : cell_(cell),
       origin_(origin),
+      recorded_(recorded),
       line_(origin),
       pairs_(pairs_of(cell.cell)),
       observer_(cell.cell, kObserverStep, kSilence),

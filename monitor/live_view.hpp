@@ -38,8 +38,9 @@ class LiveView {
   static constexpr std::size_t kCurvePoints = 450;  ///< 90 s
   static constexpr double kPlannerSilence = 1.5;    ///< heartbeats come ten times a second [s]
 
-  /// `cell` must outlive it. `origin` is the zero of its times.
-  LiveView(const app::LoadedCell& cell, LocalTime origin);
+  /// `cell` must outlive it. `origin` is the zero of its times. `recorded`: how long the recording is that it is fed from [s]; empty: it is
+  /// fed by a running cell.
+  LiveView(const app::LoadedCell& cell, LocalTime origin, std::optional<double> recorded = std::nullopt);
 
   void on_command(const dds::CommandMessage& message);
   void on_status(const dds::StatusMessage& message, LocalTime received);
@@ -100,6 +101,7 @@ class LiveView {
 
   const app::LoadedCell& cell_;
   LocalTime origin_;
+  std::optional<double> recorded_;  // [s]
   Timeline line_;
   Pairs pairs_;
   ClearanceObserver observer_;

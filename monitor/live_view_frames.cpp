@@ -132,7 +132,8 @@ Frame LiveView::snapshot() const {
   nlohmann::json frames = nlohmann::json::array();
   nlohmann::json scene = with_type("cell", scene_json(cell_.cell, pairs_));
   scene["version"] = kFrameVersion;
-  scene["source"] = "live";
+  scene["source"] = recorded_ ? "recording" : "live";
+  if (recorded_) scene["range"] = {0.0, seconds(*recorded_)};
   scene["pose_period"] = std::chrono::duration<double>(kPosePeriod).count();
   frames.push_back(std::move(scene));
   for (model::RobotIndex i = 0; i < placed_.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +15,7 @@
 #include "common/app/guarded_main.hpp"
 #include "planner/core/strategy.hpp"
 #include "simulator/optimum.hpp"
+#include "simulator/recording.hpp"
 #include "simulator/virtual_cell.hpp"
 
 using namespace interlace;
@@ -22,7 +24,7 @@ using app::ExitCode;
 namespace {
 
 struct Arguments {
-  std::string cell, program, trace, report;
+  std::string cell, program, trace, report, record;
   std::string strategy;
   double trace_period = 0.01;
   std::uint64_t seed = 1;
@@ -41,6 +43,10 @@ std::optional<ExitCode> parse(int argc, char** argv, Arguments& a) {
   for (const auto name : core::strategy_names()) names += fmt::format(", {}", name);
   cli.add_option("--strategy", a.strategy, "how starts are chosen: " + names + "; default: the cell file's");
   cli.add_option("--trace", a.trace, "write postures to this CSV file; with --strategy all the strategy's name goes before the extension");
+  cli.add_option(
+      "--record", a.record,
+      "write everything to this MCAP file, as `interlace record` does of a running cell, in virtual time; with --strategy all the "
+      "strategy's name goes before the extension");
   cli.add_option("--trace-period", a.trace_period, "seconds between rows of the trace")->check(CLI::Range(1e-4, 10.0));
   cli.add_option("--report", a.report, "write the report to this JSON file");
   cli.add_option("--seed", a.seed, "of the simulated controllers' latencies and speeds");
@@ -73,6 +79,11 @@ void show_progress(double t, std::size_t finished, std::size_t all) {
   fmt::print(stderr, "{} of {} commands at {:.1f} s of virtual time\n", finished, all, t);
 }
 
+std::string read_file(const std::string& path) {
+  std::ifstream in{path, std::ios::binary};
+  return {std::istreambuf_iterator<char>{in}, {}};
+}
+
 bool write_file(const std::string& path, const std::string& text) {
   std::ofstream out{path};
   out << text << '\n';
@@ -97,7 +108,7 @@ ExitCode run(const Arguments& a) {
     fmt::print(stderr, "{}\n", to_string(loaded.error()));
     return ExitCode::bad_input;
   }
-  auto cell = std::make_shared<const model::Cell>(std::move(loaded->cell));
+  const auto cell = std::make_shared<const model::Cell>(loaded->cell);
   const auto program = app::load_program(a.program, cell.get());
   if (!program) {
     fmt::print(stderr, "{}\n", to_string(program.error()));
@@ -152,8 +163,24 @@ ExitCode run(const Arguments& a) {
       }
       options.trace = &trace.emplace(trace_file);
     }
+    std::unique_ptr<sim::Recording> recording;
+    if (!a.record.empty()) {
+      auto started = sim::start_recording(wanted == "all" ? with_strategy(a.record, strategy) : a.record, *loaded, read_file(a.cell));
+      if (!started) {
+        fmt::print(stderr, "{}\n", started.error());
+        return ExitCode::bad_input;
+      }
+      recording = std::move(*started);
+      recording->listen(options);
+    }
     reports.push_back(sim::run_virtual(cell, *program, options));
     if (!a.json) std::cout << summary(reports.back()) << std::flush;
+    if (recording) {
+      if (const auto failure = recording->close()) {
+        fmt::print(stderr, "{}\n", *failure);
+        return ExitCode::fault;
+      }
+    }
     trace_file.close();
     if (!a.trace.empty() && !trace_file) {
       fmt::print(stderr, "the trace could not be written completely\n");

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "monitor/clearance_observer.hpp"
+#include "planner/core/journal.hpp"
 #include "robot_proxy/drivers/sim/sim_controller.hpp"
 #include "robot_proxy/executor.hpp"
 
@@ -48,11 +49,6 @@ struct VirtualRobot {
 
 using Message = std::variant<model::ClientRequest, model::PostureReported, model::ExecutionReported, model::Dispatch, model::Withdrawal>;
 
-struct Release {
-  Instant at;
-  model::ClientRequest request;
-};
-
 model::CommandSubmitted command_of(std::string id, const model::RobotName& robot, const model::ProgramStep& step) {
   return {model::CommandId{std::move(id)}, robot, step.motion, step.priority, step.deadline};
 }
@@ -77,7 +73,7 @@ model::ClientRequest request_of(const model::ProgramEvent& event, std::size_t nu
 }
 
 /// Commands and events in the order of their time; where several come at once commands first, robots in turn.
-std::deque<Release> releases_of(const model::Program& program) {
+std::vector<Release> releases_of(const model::Program& program) {
   std::vector<Release> all;
   std::size_t longest = 0;
   for (const auto& [robot, steps] : program.robots) longest = std::max(longest, steps.size());
@@ -91,19 +87,29 @@ std::deque<Release> releases_of(const model::Program& program) {
     all.push_back({model::at_seconds(program.events[i].at), request_of(program.events[i], i + 1)});
   }
   std::stable_sort(all.begin(), all.end(), [](const Release& a, const Release& b) { return a.at < b.at; });
-  return {all.begin(), all.end()};
+  return all;
+}
+
+/// Commands among them, those of replacements too.
+std::size_t commands_in(const std::vector<Release>& releases) {
+  std::size_t count = 0;
+  for (const Release& r : releases) {
+    if (std::holds_alternative<model::CommandSubmitted>(r.request)) ++count;
+    if (const auto* replacement = std::get_if<model::QueueReplaced>(&r.request)) count += replacement->commands.size();
+  }
+  return count;
 }
 
 class World {
  public:
-  World(std::shared_ptr<const model::Cell> cell, const model::Program& program, const VirtualOptions& options)
+  World(std::shared_ptr<const model::Cell> cell, const std::vector<Release>& releases, const VirtualOptions& options)
       : cell_(std::move(cell)),
         options_(options),
         planner_(cell_, planner_options()),
         observer_(*cell_, options.check_period, std::numeric_limits<double>::infinity()),
         collector_(Instant{}),
-        releases_(releases_of(program)),
-        total_(program.size()),
+        releases_(releases.begin(), releases.end()),
+        total_(commands_in(releases)),
         postures_(cell_->robots.size()),
         held_(cell_->robots.size()) {
     planner_.maps().on_build(options.on_map);
@@ -111,6 +117,7 @@ class World {
   }
 
   app::RunReport run() {
+    if (options_.on_begin) options_.on_begin(planner_options());
     for (auto& r : robots_) look_at(*r);
     deliver();
     while (const auto next = next_instant()) {
@@ -189,7 +196,7 @@ class World {
       releases_.pop_front();
     }
     deliver();
-    decide([&] { return planner_.advance(now_); });
+    decide(model::TimePassed{});
     deliver();
   }
 
@@ -197,16 +204,33 @@ class World {
   void look_at(VirtualRobot& r) {
     const auto seen = r.controller.observe(local(now_));
     act(r, r.executor.on(seen, moment(now_)));
+    mail_.emplace_back(posture_of(r, seen, now_));
+  }
+
+  [[nodiscard]] static model::PostureReported posture_of(const VirtualRobot& r, const proxy::ControllerState& seen, Instant at) {
     model::PostureReported posture;
     posture.robot = r.robot.name;
-    posture.at = now_;
+    posture.at = at;
     posture.joints = seen.joints;
     posture.holds = seen.holds;
     posture.X_WT = seen.X_WT;
     posture.moving = seen.moving;
     posture.ready = seen.ready;
     if (const auto* id = r.executor.running()) posture.motion = *id;
-    mail_.emplace_back(std::move(posture));
+    return posture;
+  }
+
+  /// One row of what goes on: postures, and once a second what the planner knows.
+  void show_row(double t) {
+    const Instant at = model::at_seconds(t);
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      const auto seen = robots_[i]->controller.observe(local(at));
+      if (options_.trace) options_.trace->row(t, robots_[i]->robot, seen.joints, seen.moving ? ids_[i] : std::string{});
+      if (options_.on_row) options_.on_row(posture_of(*robots_[i], seen, at));
+    }
+    if (!options_.on_state || at < next_state_) return;
+    options_.on_state(planner_.state(at));
+    next_state_ = at + std::chrono::seconds{1};
   }
 
   void act(VirtualRobot& r, const proxy::Actions& actions) {
@@ -221,13 +245,13 @@ class World {
     act(r, r.executor.on(r.controller.observe(local(now_)), moment(now_)));
   }
 
-  template <typename Call>
-  void decide(const Call& call) {
+  void decide(const model::PlannerEvent& event) {
     const double before = options_.stopwatch ? options_.stopwatch() : 0;
-    core::Decisions d = call();
+    core::Decisions d = core::apply(planner_, event, now_);
     const double took = options_.stopwatch ? options_.stopwatch() - before : 0;
     if (options_.stopwatch) decision_times_.push_back(took);
     if (options_.on_decision) options_.on_decision(took, d);
+    if (options_.on_call) options_.on_call(now_, event, d);
     for (const auto& s : d.statuses) {
       collector_.on_status(s);
       if (options_.on_status) options_.on_status(s);
@@ -249,11 +273,11 @@ class World {
         VirtualRobot& r = proxy_of(w->robot);
         act(r, r.executor.on(*w, moment(now_)));
       } else if (const auto* q = std::get_if<model::ClientRequest>(&message)) {
-        decide([&] { return std::visit([&](const auto& request) { return planner_.on(request, now_); }, *q); });
+        decide(*q);
       } else if (const auto* p = std::get_if<model::PostureReported>(&message)) {
-        decide([&] { return planner_.on(*p, now_); });
+        decide(*p);
       } else if (const auto* e = std::get_if<model::ExecutionReported>(&message)) {
-        decide([&] { return planner_.on(*e, now_); });
+        decide(*e);
       }
     }
   }
@@ -276,14 +300,8 @@ class World {
       if (!options_.observe) continue;
       for (std::size_t i = 0; i < robots_.size(); ++i) observer_.on_posture(i, t, postures_[i], held_[i].value_or(model::ToolSet{}));
     }
-    if (!options_.trace) return;
-    for (; traced_ * options_.trace_period < end; ++traced_) {
-      const double t = traced_ * options_.trace_period;
-      for (std::size_t i = 0; i < robots_.size(); ++i) {
-        const auto seen = robots_[i]->controller.observe(local(model::at_seconds(t)));
-        options_.trace->row(t, robots_[i]->robot, seen.joints, seen.moving ? ids_[i] : std::string{});
-      }
-    }
+    if (!options_.trace && !options_.on_row) return;
+    for (; traced_ * options_.trace_period < end; ++traced_) show_row(traced_ * options_.trace_period);
   }
 
   std::shared_ptr<const model::Cell> cell_;
@@ -300,13 +318,18 @@ class World {
   std::deque<Message> mail_;
   std::vector<double> decision_times_;
   Instant now_{};
+  Instant next_state_{};
   double checked_ = 0, traced_ = 0;  // steps done
 };
 
 }  // namespace
 
 app::RunReport run_virtual(std::shared_ptr<const model::Cell> cell, const model::Program& program, const VirtualOptions& options) {
-  return World{std::move(cell), program, options}.run();
+  return World{std::move(cell), releases_of(program), options}.run();
+}
+
+app::RunReport run_virtual(std::shared_ptr<const model::Cell> cell, const std::vector<Release>& requests, const VirtualOptions& options) {
+  return World{std::move(cell), requests, options}.run();
 }
 
 }  // namespace interlace::sim

@@ -5,8 +5,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/app/report.hpp"
+#include "common/model/journal.hpp"
 #include "common/model/program.hpp"
 #include "planner/core/planner.hpp"
 #include "simulator/trace.hpp"
@@ -33,6 +35,19 @@ struct VirtualOptions {
   core::MapStore::Listener on_map;                                  ///< before each map is built
   std::function<void(double, const core::Decisions&)> on_decision;  ///< each call of the planner: what it took [s], 0 without a stopwatch
   std::function<void(const core::MapStatistics&)> on_maps;          ///< at the end
+
+  // For a recording.
+  std::function<void(const core::PlannerOptions&)> on_begin;  ///< before all others: what the planner is built with
+  /// Each call of the planner: what it was told, when, and what it decided.
+  std::function<void(model::Instant, const model::PlannerEvent&, const core::Decisions&)> on_call;
+  std::function<void(const model::PostureReported&)> on_row;  ///< every trace_period, of every robot
+  std::function<void(const model::PlannerState&)> on_state;   ///< every second; what only its sender knows is empty
+};
+
+/// A client's request at its time.
+struct Release {
+  model::Instant at;
+  model::ClientRequest request;
 };
 
 /// Runs `program` on `cell` in virtual time: the daemon's planner core, the proxies' executors and the simulated controllers, joined by
@@ -40,6 +55,9 @@ struct VirtualOptions {
 /// The least clearance and the collisions are judged from the controllers' postures by the observer, not by the planner.
 /// Throws std::invalid_argument when the strategy is unknown.
 [[nodiscard]] app::RunReport run_virtual(std::shared_ptr<const model::Cell> cell, const model::Program& program,
+                                         const VirtualOptions& options);
+/// The same for requests in the order of their time.
+[[nodiscard]] app::RunReport run_virtual(std::shared_ptr<const model::Cell> cell, const std::vector<Release>& requests,
                                          const VirtualOptions& options);
 
 }  // namespace interlace::sim

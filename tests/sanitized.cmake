@@ -8,8 +8,11 @@ if(INTERLACE_DDS)
   list(APPEND interlace_threaded dds_round_trip_test dds_refusal_test dds_mutation_test dds_practice_test dds_cyclone_test
        dds_ros2_test)
 endif()
+if(INTERLACE_DDS)
+  set(interlace_of_recordings playback_tests dds_journal_test)
+endif()
 add_custom_target(threaded_tests DEPENDS ${interlace_threaded})
 
 # All tests but the end-to-end ones.
-add_custom_target(sanitized_tests DEPENDS ${interlace_threaded} client_tests config_tests core_tests mesh_tests model_tests model_walk_tests modeller_tests monitor_tests planner_lossy planner_promises
+add_custom_target(sanitized_tests DEPENDS ${interlace_threaded} ${interlace_of_recordings} client_tests config_tests core_tests mcap_tests mesh_tests model_tests model_walk_tests modeller_tests monitor_tests planner_lossy planner_promises
                                           report_tests reproduce_tests ros2_tests core_properties model_properties ros2_properties standoff_tests dissertation_regressions)

@@ -7,7 +7,7 @@ namespace interlace::app {
 const char* meaning(ExitCode code) {
   switch (code) {
     case ExitCode::ok: return "did what was asked";
-    case ExitCode::unserved: return "a command was rejected, failed or left waiting";
+    case ExitCode::unserved: return "a command was rejected, failed or left waiting; a replay decided differently";
     case ExitCode::bad_input: return "options, a cell file or a program file are wrong; nothing was started";
     case ExitCode::collision: return "robots touched";
     case ExitCode::unavailable: return "a process, robot or cell that is needed is not there";

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "common/dds/envelope.hpp"
+#include "common/model/journal.hpp"
 #include "common/model/result.hpp"
 #include "interlace.h"
 
@@ -20,6 +21,7 @@ using Converted = model::Result<Message, std::string>;
 [[nodiscard]] Converted<ExecutionMessage> from_wire(const ::interlace::Execution& wire, const std::string& owner);
 [[nodiscard]] Converted<PostureMessage> from_wire(const ::interlace::Posture& wire, const std::string& owner);
 [[nodiscard]] Converted<model::PlannerState> from_wire(const ::interlace::PlannerState& wire, const std::string& owner);
+[[nodiscard]] Converted<model::PlannerJournal> from_wire(const ::interlace::PlannerJournal& wire, const std::string& owner);
 
 /// Never fails: text is tidied and cut, conflicts beyond kMaxConflicts and refusals beyond kMaxRefusals are left out. Whether a
 /// receiver accepts the result, from_wire tells.
@@ -29,5 +31,6 @@ using Converted = model::Result<Message, std::string>;
 [[nodiscard]] ::interlace::Execution to_wire(const ExecutionMessage& message);
 [[nodiscard]] ::interlace::Posture to_wire(const PostureMessage& message);
 [[nodiscard]] ::interlace::PlannerState to_wire(const model::PlannerState& message);
+[[nodiscard]] ::interlace::PlannerJournal to_wire(const model::PlannerJournal& message);
 
 }  // namespace interlace::dds

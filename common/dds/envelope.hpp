@@ -55,6 +55,6 @@ struct PostureMessage {
   bool held = false;  ///< as the last planner that knew this proxy said: a hold outlives the planner
 };
 
-// On `planner_state`, planner → everyone: model::PlannerState.
+// On `planner_state`, planner → everyone: model::PlannerState. On `planner_journal`, likewise: model::PlannerJournal.
 
 }  // namespace interlace::dds

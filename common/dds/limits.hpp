@@ -12,6 +12,7 @@ inline constexpr std::size_t kMaxRefusals = 16;                       ///< of es
 inline constexpr std::size_t kMaxRobots = 128;                        ///< in one cell
 inline constexpr std::size_t kMaxReplacement = 100;                   ///< commands that take a queue's place at a time
 inline constexpr std::size_t kMaxTools = 32;                          ///< in one cell
+inline constexpr std::size_t kMaxCalls = 128;                         ///< of the planner, in one message
 inline constexpr double kMaxLength = 1e4;                             ///< |coordinate|, |clearance| [m]
 inline constexpr double kMaxAngle = 1e3;                              ///< |joint| [rad]
 inline constexpr double kMaxRate = 1e6;                               ///< |velocity| [m/s], |acceleration| [m/s²]

@@ -45,6 +45,8 @@ Profile profile(Stream stream) {
     case Stream::execution: return {false, 64, std::nullopt};
     case Stream::posture: return {true, 1, Vigilance{milliseconds{500}, milliseconds{1000}}};
     case Stream::planner_state: return {true, 1, Vigilance{milliseconds{2500}, milliseconds{3000}}};
+    // Whoever comes within some seconds of the planner's start still hears it from its first call on.
+    case Stream::planner_journal: return {true, 256, std::nullopt};
   }
   return {false, 1, std::nullopt};
 }
@@ -106,12 +108,17 @@ fast::DomainParticipantQos participant(const ParticipantOptions& options) {
 }
 
 fast::DataWriterQos writer(Stream stream) {
-  return writer_of(profile(stream));
+  fast::DataWriterQos q = writer_of(profile(stream));
+  // The journal may have gaps, the planner may not wait.
+  if (stream == Stream::planner_journal) q.reliability().max_blocking_time = to_dds(std::chrono::milliseconds{1});
+  return q;
 }
 
-fast::DataReaderQos reader(Stream stream) {
+fast::DataReaderQos reader(Stream stream, std::int32_t depth) {
   fast::DataReaderQos q;
-  apply(profile(stream), q);
+  Profile p = profile(stream);
+  if (depth > 0) p.depth = depth;
+  apply(p, q);
   return q;
 }
 

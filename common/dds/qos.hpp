@@ -12,11 +12,12 @@
 namespace interlace::dds::qos {
 
 /// What a stream is for decides its QoS.
-enum class Stream { command, command_status, dispatch, execution, posture, planner_state };
+enum class Stream { command, command_status, dispatch, execution, posture, planner_state, planner_journal };
 
 [[nodiscard]] eprosima::fastdds::dds::DomainParticipantQos participant(const ParticipantOptions& options);
 [[nodiscard]] eprosima::fastdds::dds::DataWriterQos writer(Stream stream);
-[[nodiscard]] eprosima::fastdds::dds::DataReaderQos reader(Stream stream);
+/// `depth`: samples it keeps until they are taken, per instance; 0: as many as its writers.
+[[nodiscard]] eprosima::fastdds::dds::DataReaderQos reader(Stream stream, std::int32_t depth = 0);
 /// As the nodes that listen to such a topic ask for by default.
 [[nodiscard]] eprosima::fastdds::dds::DataWriterQos ros2_writer(const Ros2Topic& topic, const std::string& user_data);
 

@@ -33,15 +33,24 @@ void ReaderBase::refresh() {
   }
 }
 
-template <typename Message>
-Reader<Message>::Reader(Participant& participant, const Topic<Message>& topic) : ReaderBase(participant, topic.name), owner_(topic.owner) {
-  fast::Topic& made = participant.topic(topic.name, make_type<WireOf<Message>>());
-  reader_ = participant.subscriber().create_datareader(&made, qos::reader(WireTraits<Message>::stream));
-  if (reader_ == nullptr) throw std::runtime_error{"cannot create a DDS reader of " + topic.name};
+void ReaderBase::create(std::unique_ptr<fast::TopicDataType> type, const fast::DataReaderQos& qos) {
+  fast::Topic& made = participant_.topic(name_, std::move(type));
+  reader_ = participant_.subscriber().create_datareader(&made, qos);
+  if (reader_ == nullptr) throw std::runtime_error{"cannot create a DDS reader of " + name_};
   fast::StatusMask events = fast::StatusMask::none();
   events << fast::StatusMask::data_available() << fast::StatusMask::subscription_matched() << fast::StatusMask::liveliness_changed()
          << fast::StatusMask::requested_deadline_missed();
   reader_->get_statuscondition().set_enabled_statuses(events);
+}
+
+void ReaderBase::refused(const std::string& rule) {
+  ++counters_.refused;
+  counters_.last_refusal = name_ + ": " + rule;
+}
+
+template <typename Message>
+Reader<Message>::Reader(Participant& participant, const Topic<Message>& topic) : ReaderBase(participant, topic.name), owner_(topic.owner) {
+  create(make_type<WireOf<Message>>(), qos::reader(WireTraits<Message>::stream));
 }
 
 template <typename Message>
@@ -56,8 +65,7 @@ bool Reader<Message>::next(Message& message) {
       message = std::move(*converted);
       return true;
     }
-    ++counters_.refused;
-    counters_.last_refusal = name_ + ": " + converted.error();
+    refused(converted.error());
   }
   return false;
 }
@@ -68,5 +76,6 @@ template class Reader<DispatchMessage>;
 template class Reader<ExecutionMessage>;
 template class Reader<PostureMessage>;
 template class Reader<model::PlannerState>;
+template class Reader<model::PlannerJournal>;
 
 }  // namespace interlace::dds

@@ -10,7 +10,9 @@
 
 namespace eprosima::fastdds::dds {
 class DataReader;
+class DataReaderQos;
 class Entity;
+class TopicDataType;
 }  // namespace eprosima::fastdds::dds
 
 namespace interlace::dds {
@@ -39,6 +41,11 @@ class ReaderBase {
  protected:
   ReaderBase(Participant& participant, std::string name) : participant_(participant), name_(std::move(name)) {}
   ~ReaderBase();
+
+  /// Makes the reader of `type` on the topic of this name. Throws std::runtime_error.
+  void create(std::unique_ptr<eprosima::fastdds::dds::TopicDataType> type, const eprosima::fastdds::dds::DataReaderQos& qos);
+  /// Counts a sample that broke `rule`.
+  void refused(const std::string& rule);
 
   /// Reads the events since the last call into the counters; a Wait would return at once until this is done.
   void refresh();
@@ -81,5 +88,6 @@ extern template class Reader<DispatchMessage>;
 extern template class Reader<ExecutionMessage>;
 extern template class Reader<PostureMessage>;
 extern template class Reader<model::PlannerState>;
+extern template class Reader<model::PlannerJournal>;
 
 }  // namespace interlace::dds

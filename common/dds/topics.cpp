@@ -39,5 +39,9 @@ Topic<model::PlannerState> planner_state(const std::string& cell) {
   require_name("cell", cell);
   return {cell + "/planner_state", cell};
 }
+Topic<model::PlannerJournal> planner_journal(const std::string& cell) {
+  require_name("cell", cell);
+  return {cell + "/planner_journal", cell};
+}
 
 }  // namespace interlace::dds::topics

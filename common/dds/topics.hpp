@@ -5,6 +5,7 @@
 
 #include "common/dds/envelope.hpp"
 #include "common/model/ids.hpp"
+#include "common/model/journal.hpp"
 
 namespace interlace::dds {
 
@@ -28,6 +29,7 @@ namespace topics {
 [[nodiscard]] Topic<ExecutionMessage> execution(const std::string& cell, const model::RobotName& robot);
 [[nodiscard]] Topic<PostureMessage> posture(const std::string& cell, const model::RobotName& robot);
 [[nodiscard]] Topic<model::PlannerState> planner_state(const std::string& cell);
+[[nodiscard]] Topic<model::PlannerJournal> planner_journal(const std::string& cell);
 }  // namespace topics
 
 }  // namespace interlace::dds

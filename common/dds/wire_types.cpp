@@ -74,8 +74,14 @@ bool lengths_are_bounded<::interlace::Command>(Cdr& cdr) {
   skip_all<std::uint32_t, std::uint32_t, std::string, std::string, std::string>(cdr);
   skip_goal(cdr);
   skip_all<std::int32_t, bool, double>(cdr);
-  std::uint32_t queue = 0;
-  return length_within(cdr, kMaxReplacement, queue);
+  std::uint32_t entries = 0;
+  if (!length_within(cdr, kMaxReplacement, entries)) return false;
+  for (std::uint32_t e = 0; e < entries; ++e) {
+    skip_all<std::string, std::uint32_t>(cdr);
+    skip_goal(cdr);
+    skip_all<std::int32_t, bool, double>(cdr);
+  }
+  return true;
 }
 
 template <>
@@ -122,6 +128,34 @@ bool lengths_are_bounded<::interlace::Posture>(Cdr& cdr) {
   return tools_are_bounded(cdr);
 }
 
+/// None or one `Wire`, read over.
+template <typename Wire>
+bool at_most_one_is_bounded(Cdr& cdr, std::uint32_t& count) {
+  return length_within(cdr, 1, count) && (count == 0 || lengths_are_bounded<Wire>(cdr));
+}
+
+template <>
+bool lengths_are_bounded<::interlace::PlannerJournal>(Cdr& cdr) {
+  skip_all<std::uint32_t, std::string, std::uint64_t, std::uint64_t>(cdr);
+  skip_all<std::string, bool, std::int64_t, std::int64_t, std::int64_t, bool, std::int64_t, std::int64_t, std::int64_t, std::uint64_t,
+           std::string, std::uint64_t>(cdr);
+  skip<std::uint64_t>(cdr);
+  std::uint32_t calls = 0;
+  if (!length_within(cdr, kMaxCalls, calls)) return false;
+  for (std::uint32_t c = 0; c < calls; ++c) {
+    skip_all<std::uint32_t, std::int64_t>(cdr);
+    std::uint32_t count = 0;
+    if (!at_most_one_is_bounded<::interlace::Command>(cdr, count)) return false;
+    if (!at_most_one_is_bounded<::interlace::Posture>(cdr, count)) return false;
+    if (count == 1) skip<bool>(cdr);  // what a posture has behind its last sequence
+    if (!at_most_one_is_bounded<::interlace::Execution>(cdr, count)) return false;
+    if (!length_within(cdr, kMaxReplacement, count)) return false;
+    skip_numbers(cdr, 9 * static_cast<int>(count));
+    skip_all<std::uint32_t, std::uint32_t, std::uint32_t, std::uint64_t>(cdr);
+  }
+  return true;
+}
+
 /// The generated type with its doors closed: no exception leaves it, because it also runs in threads that are not ours.
 template <typename Generated>
 class GuardedType : public Generated {
@@ -146,31 +180,77 @@ class GuardedType : public Generated {
   }
 };
 
+/// The same, and the bytes are kept beside what they mean.
+template <typename Generated>
+class RecordedType : public GuardedType<Generated> {
+ public:
+  using Sample = Recorded<typename Generated::type>;
+
+  bool deserialize(SerializedPayload_t* payload, void* data) override {
+    auto* sample = static_cast<Sample*>(data);
+    sample->cdr.assign(payload->data, payload->data + payload->length);
+    return GuardedType<Generated>::deserialize(payload, static_cast<typename Generated::type*>(sample));
+  }
+  void* createData() override { return new Sample; }
+  void deleteData(void* data) override { delete static_cast<Sample*>(data); }
+};
+
+template <typename Wire>
+struct GeneratedOf;
+template <>
+struct GeneratedOf<::interlace::Command> {
+  using Type = ::interlace::CommandPubSubType;
+};
+template <>
+struct GeneratedOf<::interlace::CommandStatus> {
+  using Type = ::interlace::CommandStatusPubSubType;
+};
+template <>
+struct GeneratedOf<::interlace::Dispatch> {
+  using Type = ::interlace::DispatchPubSubType;
+};
+template <>
+struct GeneratedOf<::interlace::Execution> {
+  using Type = ::interlace::ExecutionPubSubType;
+};
+template <>
+struct GeneratedOf<::interlace::Posture> {
+  using Type = ::interlace::PosturePubSubType;
+};
+template <>
+struct GeneratedOf<::interlace::PlannerState> {
+  using Type = ::interlace::PlannerStatePubSubType;
+};
+template <>
+struct GeneratedOf<::interlace::PlannerJournal> {
+  using Type = ::interlace::PlannerJournalPubSubType;
+};
+
 }  // namespace
 
-template <>
-std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::Command>() {
-  return std::make_unique<GuardedType<::interlace::CommandPubSubType>>();
+template <typename Wire>
+std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type() {
+  return std::make_unique<GuardedType<typename GeneratedOf<Wire>::Type>>();
 }
-template <>
-std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::CommandStatus>() {
-  return std::make_unique<GuardedType<::interlace::CommandStatusPubSubType>>();
+
+template <typename Wire>
+std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_recorded_type() {
+  return std::make_unique<RecordedType<typename GeneratedOf<Wire>::Type>>();
 }
-template <>
-std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::Dispatch>() {
-  return std::make_unique<GuardedType<::interlace::DispatchPubSubType>>();
-}
-template <>
-std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::Execution>() {
-  return std::make_unique<GuardedType<::interlace::ExecutionPubSubType>>();
-}
-template <>
-std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::Posture>() {
-  return std::make_unique<GuardedType<::interlace::PosturePubSubType>>();
-}
-template <>
-std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::PlannerState>() {
-  return std::make_unique<GuardedType<::interlace::PlannerStatePubSubType>>();
-}
+
+template std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::Command>();
+template std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::CommandStatus>();
+template std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::Dispatch>();
+template std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::Execution>();
+template std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::Posture>();
+template std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::PlannerState>();
+template std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_type<::interlace::PlannerJournal>();
+template std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_recorded_type<::interlace::Command>();
+template std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_recorded_type<::interlace::CommandStatus>();
+template std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_recorded_type<::interlace::Dispatch>();
+template std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_recorded_type<::interlace::Execution>();
+template std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_recorded_type<::interlace::Posture>();
+template std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_recorded_type<::interlace::PlannerState>();
+template std::unique_ptr<eprosima::fastdds::dds::TopicDataType> make_recorded_type<::interlace::PlannerJournal>();
 
 }  // namespace interlace::dds

@@ -50,5 +50,6 @@ template class Writer<DispatchMessage>;
 template class Writer<ExecutionMessage>;
 template class Writer<PostureMessage>;
 template class Writer<model::PlannerState>;
+template class Writer<model::PlannerJournal>;
 
 }  // namespace interlace::dds

@@ -48,5 +48,6 @@ extern template class Writer<DispatchMessage>;
 extern template class Writer<ExecutionMessage>;
 extern template class Writer<PostureMessage>;
 extern template class Writer<model::PlannerState>;
+extern template class Writer<model::PlannerJournal>;
 
 }  // namespace interlace::dds

@@ -23,7 +23,10 @@ MonitorNode::MonitorNode(app::LoadedCell cell, std::uint32_t domain, const Serve
       participant_({domain, "interlace-monitor " + cell_.cell.name}),
       states_(participant_, dds::topics::planner_state(cell_.cell.name)),
       ros2_(ros2_domain ? std::make_unique<Ros2Publisher>(cell_.cell, *ros2_domain) : nullptr),
-      server_(server, std::move(bundle), [this](ViewerId viewer, const ViewerRequest& request) { on_request(viewer, request); }) {
+      server_(server, std::move(bundle), [this](ViewerId viewer, const ViewerRequest& request) {
+        asked_.note(viewer, request);
+        wait_.wake();
+      }) {
   wait_.attach(states_);
   for (const model::Robot& robot : cell_.cell.robots) {
     Link& link = *links_.emplace_back(std::make_unique<Link>(participant_, cell_.cell.name, robot.name));
@@ -36,18 +39,6 @@ MonitorNode::MonitorNode(app::LoadedCell cell, std::uint32_t domain, const Serve
       {{"cell", cell_.cell.name}, {"robots", cell_.cell.robots.size()}, {"domain", domain}, {"url", server_.url()}});
 }
 
-void MonitorNode::on_request(ViewerId viewer, const ViewerRequest& request) {
-  {
-    const std::lock_guard lock{mutex_};
-    if (const auto* map = std::get_if<MapRequest>(&request)) {
-      asked_.maps[viewer] = map->command;
-    } else {
-      asked_.snapshots.insert(viewer);
-    }
-  }
-  wait_.wake();
-}
-
 void MonitorNode::stop() {
   stopping_ = true;
   wait_.wake();
@@ -57,7 +48,7 @@ void MonitorNode::run() {
   while (!stopping_) {
     (void)wait_.until(next_pose_);
     take_all();
-    answer();
+    if (asked_.answer(view_, server_)) wait_.wake();
     if (const auto now = Clock::now(); now >= next_pose_) {
       show(now);
       next_pose_ = std::max(next_pose_ + LiveView::kPosePeriod, now);
@@ -85,22 +76,6 @@ void MonitorNode::show(Clock::time_point now) {
   if (server_.viewers() == 0) return;
   for (Frame& event : events) server_.broadcast(std::move(event));
   server_.broadcast(view_.pose());
-}
-
-void MonitorNode::answer() {
-  Asked asked;
-  {
-    const std::lock_guard lock{mutex_};
-    asked.snapshots.swap(asked_.snapshots);
-    // Maps take milliseconds: one at a time, so that nothing else waits for more than one.
-    if (!asked_.maps.empty()) asked.maps.insert(asked_.maps.extract(asked_.maps.begin()));
-    if (!asked_.maps.empty()) wait_.wake();
-  }
-  if (!asked.snapshots.empty()) {
-    const Frame snapshot = view_.snapshot();
-    for (const ViewerId viewer : asked.snapshots) server_.send(viewer, snapshot);
-  }
-  for (const auto& [viewer, command] : asked.maps) server_.send(viewer, view_.map(command));
 }
 
 }  // namespace interlace::monitor

@@ -2,11 +2,8 @@
 
 #include <atomic>
 #include <chrono>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +11,7 @@
 #include "common/dds/participant.hpp"
 #include "common/dds/reader.hpp"
 #include "common/dds/wait.hpp"
+#include "monitor/daemon/asked.hpp"
 #include "monitor/daemon/ros2_publisher.hpp"
 #include "monitor/live_view.hpp"
 #include "monitor/server/web_server.hpp"
@@ -47,15 +45,8 @@ class MonitorNode {
     dds::Reader<dds::ExecutionMessage> executions;
     dds::Reader<dds::PostureMessage> postures;
   };
-  /// What viewers ask, from the server's thread: one map at a time for each, the newest.
-  struct Asked {
-    std::set<ViewerId> snapshots;
-    std::map<ViewerId, model::CommandId> maps;
-  };
   void take_all();
   void show(Clock::time_point now);
-  void answer();
-  void on_request(ViewerId viewer, const ViewerRequest& request);
 
   app::LoadedCell cell_;
   LiveView view_;
@@ -64,7 +55,6 @@ class MonitorNode {
   std::vector<std::unique_ptr<Link>> links_;
   dds::Wait wait_;
   std::unique_ptr<Ros2Publisher> ros2_;  // null: nobody asked for it
-  std::mutex mutex_;                     // of asked_
   Asked asked_;
   Clock::time_point next_pose_{};
   std::atomic<bool> stopping_{false};

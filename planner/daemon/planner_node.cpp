@@ -83,9 +83,11 @@ PlannerNode::PlannerNode(app::LoadedCell cell, const PlannerNodeOptions& options
     : cell_(std::make_shared<const model::Cell>(std::move(cell.cell))),
       fingerprint_(cell.fingerprint),
       incarnation_(random_incarnation()),
-      planner_(cell_, core_options(*cell_, options, incarnation_)),
+      core_options_(core_options(*cell_, options, incarnation_)),
+      planner_(cell_, core_options_),
       participant_({options.domain, "interlace-planner " + cell_->name}),
-      states_(participant_, dds::topics::planner_state(cell_->name)) {
+      states_(participant_, dds::topics::planner_state(cell_->name)),
+      journal_(participant_, journal_head()) {
   for (const model::Robot& robot : cell_->robots) {
     links_.push_back(std::make_unique<Link>(participant_, cell_->name, robot.name));
     wait_.attach(links_.back()->commands);
@@ -113,7 +115,10 @@ void PlannerNode::run() {
     const bool prepared = quiet && planner_.prepare();
     (void)wait_.until(prepared ? Clock::now() : deadline);
     take_all();
-    publish(planner_.advance(now()));
+    const auto passed = now();
+    const core::Decisions decisions = planner_.advance(passed);
+    publish(decisions);
+    journal_.note(passed, model::TimePassed{}, decisions);
     const auto t = Clock::now();
     if (t >= next_heartbeat_) {
       send_heartbeats();
@@ -124,7 +129,9 @@ void PlannerNode::run() {
       send_state();
       next_state_ = t + dds::kPlannerStatePeriod;
     }
+    journal_.send_when_due(t);
   }
+  journal_.send_all();
   const auto decisions = app::statistics_of(decision_times_);
   const auto maps = planner_.maps().statistics();
   log(LogLevel::info, "stopped",
@@ -142,9 +149,11 @@ void PlannerNode::run() {
 template <typename Event>
 void PlannerNode::decide(const Event& event) {
   const double before = elapsed_seconds();
-  const core::Decisions decisions = planner_.on(event, now());
+  const auto t = now();
+  const core::Decisions decisions = planner_.on(event, t);
   if (!decisions.empty() && decision_times_.size() < kDecisionsKept) decision_times_.push_back(elapsed_seconds() - before);
   publish(decisions);
+  journal_.note(t, event, decisions);
   // The proxies remember holds: they must know before this planner could be gone.
   if constexpr (std::is_same_v<Event, model::HoldRequested> || std::is_same_v<Event, model::ResumeRequested>) send_heartbeats();
 }
@@ -202,6 +211,15 @@ dds::DispatchMessage PlannerNode::envelope() const {
   message.planner_incarnation = incarnation_;
   message.fingerprint = fingerprint_;
   return message;
+}
+
+model::PlannerJournal PlannerNode::journal_head() const {
+  model::PlannerJournal head;
+  head.cell = cell_->name;
+  head.fingerprint = fingerprint_;
+  head.incarnation = incarnation_;
+  head.settings = core::settings_of(core_options_);
+  return head;
 }
 
 void PlannerNode::publish(const core::Decisions& decisions) {

@@ -14,6 +14,7 @@
 #include "common/dds/wait.hpp"
 #include "common/dds/writer.hpp"
 #include "planner/core/planner.hpp"
+#include "planner/daemon/journal_writer.hpp"
 
 namespace interlace::daemon {
 
@@ -68,6 +69,7 @@ class PlannerNode {
   [[nodiscard]] model::PlannerState state();
   [[nodiscard]] Link& link_of(const model::RobotName& robot);
   [[nodiscard]] dds::DispatchMessage envelope() const;
+  [[nodiscard]] model::PlannerJournal journal_head() const;
 
   template <typename Event>
   void decide(const Event& event);
@@ -76,10 +78,12 @@ class PlannerNode {
   std::uint64_t fingerprint_;
   std::uint64_t incarnation_;
   Clock::time_point epoch_ = Clock::now();
+  core::PlannerOptions core_options_;
   core::Planner planner_;
   dds::Participant participant_;
   std::vector<std::unique_ptr<Link>> links_;
   dds::Writer<model::PlannerState> states_;
+  JournalWriter journal_;
   dds::Wait wait_;
   Clock::time_point next_heartbeat_{}, next_state_{};
   bool state_changed_ = true;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/e2e/running_cell.hpp"
+#include "tests/e2e/scratch.hpp"
 
 namespace interlace::test {
 namespace {
@@ -32,6 +33,28 @@ TEST(MonitorPage, ShowsExperiment62AsItHappens) {
   const auto text = [&](const char* key) { return waiting[key].get<std::string>(); };
   const std::string reason = text("robot") + "'s " + text("link") + " would meet " + text("blocker") + "'s " + text("blocker_link");
   EXPECT_NE(cell.planner().errors().find(reason), std::string::npos) << reason;
+}
+
+TEST(MonitorPage, PlaysARecording) {
+  const Scratch scratch;
+  const std::string file = scratch.path("run.mcap");
+  const Outcome simulated = run({kSim, deployed("exp-4-2/cell.yaml"), deployed("exp-4-2/program.yaml"), "--record", file});
+  ASSERT_EQ(simulated.exit_code, 0) << simulated;
+  Process monitor{{kMonitor, "--recording", file, "--port", "0"}, true};
+  ASSERT_TRUE(monitor.logs("info monitor ready", kPatience)) << outcome(monitor, 1ms);
+  const std::string url = monitor.output().substr(0, monitor.output().find('\n'));
+  const Outcome seen =
+      run({INTERLACE_NODE, INTERLACE_PAGE_TESTS "/recording_run.js", INTERLACE_CHROMIUM, url, INTERLACE_SCREENSHOTS}, kBrowserPatience);
+  EXPECT_EQ(seen.exit_code, 0) << seen;
+  monitor.kill(SIGTERM);
+  EXPECT_EQ(monitor.wait(kPatience), 0);
+}
+
+TEST(MonitorPage, RefusesARecordingThatCannotBePlayed) {
+  const Outcome none = run({kMonitor, "--recording", deployed("exp-4-2/cell.yaml")});
+  EXPECT_EQ(none.exit_code, 2) << none;
+  EXPECT_TRUE(none.says("byte 0: not an MCAP file")) << none;
+  EXPECT_EQ(run({kMonitor}).exit_code, 2);
 }
 
 }  // namespace

@@ -118,7 +118,8 @@ TEST(ShiftMap, MissesNoCollisionHoweverDurationsErr) {
       EXPECT_TRUE(holds(coarse, t)) << "pair " << k << ", time " << t;
     }
     const auto clear = way.first_clear(other.duration()), later = coarse.first_clear(other.duration());
-    EXPECT_TRUE(!later || (clear && *clear <= *later + kRounding)) << "pair " << k << ": coarser is not sooner clear, " << clear.value_or(-1) << " and " << later.value_or(-1);
+    EXPECT_TRUE(!later || (clear && *clear <= *later + kRounding))
+        << "pair " << k << ": coarser is not sooner clear, " << clear.value_or(-1) << " and " << later.value_or(-1);
   }
   std::printf("%zu collisions\n", collisions);
   EXPECT_GT(collisions, 5 * scaled(kPairs));

@@ -7,6 +7,7 @@ import {Connection} from './connection.js';
 import {Curves} from './curves.js';
 import {h, setText, throttled} from './dom.js';
 import {MapPanel} from './map_panel.js';
+import {Player} from './player.js';
 import {RobotCards} from './robot_cards.js';
 import {Scene} from './scene.js';
 import {apply, emptyState} from './store.js';
@@ -28,6 +29,8 @@ const connection = new Connection(`${location.protocol === 'https:' ? 'wss' : 'w
   onFrame: (frame) => changed(apply(picture, frame)),
   onChange: () => showConnection(),
 });
+
+const player = new Player(byId('player'), (request) => connection.send(request));
 
 function show(id) {
   if (id === selected) return;
@@ -78,6 +81,7 @@ const drawState = throttled(() => {
 
 function changed(kind) {
   if (!picture.cell || kind === null) return;
+  if (kind === 'player' || kind === 'snapshot') player.draw(picture);
   if (kind === 'snapshot') {
     scene.build(picture);
     curves.build(picture);
@@ -112,7 +116,7 @@ function showConnection() {
   const stale = !open || silence > staleAfter;
   const state = open ? (stale ? 'stale' : 'live') : 'lost';
   document.documentElement.dataset.connection = state;
-  setText(byId('connection'), {live: 'live', stale: 'no news', lost: 'no connection, trying again'}[state]);
+  setText(byId('connection'), {live: picture.cell?.source === 'recording' ? 'recording' : 'live', stale: 'no news', lost: 'no connection, trying again'}[state]);
   byId('stale').hidden = !stale;
   if (stale) setText(byId('stale'), picture.cell ? `What you see is ${silence.toFixed(0)} s old` : 'Waiting for the first picture');
 }

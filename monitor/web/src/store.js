@@ -16,6 +16,7 @@ export function emptyState() {
     state: null,
     pose: null,
     map: null,
+    player: null, // of a recording: what it does
     skipped: 0,
     t: 0, // of the newest frame [s]
   };
@@ -36,7 +37,7 @@ function addPose(picture, frame) {
 
 const handlers = {
   cell(picture, frame) {
-    Object.assign(picture, emptyState(), {cell: frame, skipped: picture.skipped});
+    Object.assign(picture, emptyState(), {cell: frame, skipped: picture.skipped, player: picture.player});
     for (const robot of frame.robots) picture.bodies.set(robot.name, {links: robot.links, radii: robot.radii});
     picture.curves.pairs = frame.pairs.map(() => []);
   },
@@ -65,6 +66,9 @@ const handlers = {
   pose: addPose,
   map(picture, frame) {
     picture.map = frame;
+  },
+  player(picture, frame) {
+    picture.player = frame;
   },
   skipped(picture, frame) {
     picture.skipped += frame.frames;

@@ -23,6 +23,15 @@ test('what was skipped is counted across snapshots', () => {
   assert.equal(state.skipped, 9);
 });
 
+test('what a recording does is kept across snapshots, and moves the time', () => {
+  const player = {type: 'player', t: 12.5, playing: true, speed: 2, seeking: false, error: null};
+  const state = picture(cellFrame(), player);
+  assert.equal(state.t, 12.5);
+  apply(state, {type: 'snapshot', t: 3, frames: [cellFrame(), poseFrame(3, 0.2)]});
+  assert.deepEqual(state.player, player);
+  assert.equal(state.t, 3);
+});
+
 test('frames of kinds that are not known change nothing', () => {
   const state = picture(cellFrame());
   for (const type of ['later', '__proto__', 'constructor', 'toString', undefined]) assert.equal(apply(state, {type, t: 9}), null);

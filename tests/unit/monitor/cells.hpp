@@ -11,9 +11,8 @@
 
 namespace interlace::test {
 
-/// Experiment 4.2's two arms, 500 mm apart, and what a test wants otherwise.
-inline app::LoadedCell two_arms(const std::string& more = "") {
-  const std::string text = R"(interlace: 1
+/// Experiment 4.2's two arms, 500 mm apart.
+inline const std::string kTwoArms = R"(interlace: 1
 units: {length: mm, angle: deg}
 cell: two
 models:
@@ -34,8 +33,11 @@ robots:
     start: {xyz: [450, -250, 300], rpy: [0, 0, 0]}
     tcp:   {velocity: 100, acceleration: 100}
 planning: {resolution: 0.02, margin: 0, strategy: event}
-)" + more;
-  auto cell = app::parse_cell(text, "two.yaml");
+)";
+
+/// The same, and what a test wants otherwise.
+inline app::LoadedCell two_arms(const std::string& more = "") {
+  auto cell = app::parse_cell(kTwoArms + more, "two.yaml");
   if (!cell) throw std::runtime_error{to_string(cell.error())};
   return std::move(*cell);
 }
