@@ -196,6 +196,7 @@ class Outlook {
   void expand(std::size_t parent, std::size_t most_detours, std::vector<std::size_t>& commands, std::vector<std::size_t>& detours);
   std::size_t add(std::size_t parent, const Action& action, const SampledMotionPtr& motion, Place* to);
   [[nodiscard]] bool begin();
+  [[nodiscard]] bool no_sooner(std::size_t node, std::size_t other) const;
   std::optional<std::size_t> after(std::size_t node, const PlannedStart& p);
   std::optional<OutlookPlan> with_slower(const OutlookPlan& plan, std::size_t which, double part);
   [[nodiscard]] static const SampledMotionPtr* kept(Posture& posture, const SampledMotionPtr& motion);

@@ -138,6 +138,15 @@ Outlook::Beam Outlook::beam(std::size_t index) {
   return kAll.at(index);
 }
 
+/// Whether all robots, which are at the same places at both nodes, are free no sooner at `node` than at `other`.
+bool Outlook::no_sooner(std::size_t node, std::size_t other) const {
+  if (nodes_[node].last < nodes_[other].last) return false;
+  for (RobotIndex i = 0; i < robots_.size(); ++i) {
+    if (state(node, i).free < state(other, i).free) return false;
+  }
+  return true;
+}
+
 /// The present as the first node; false when there is no saying from where a robot goes on.
 bool Outlook::begin() {
   nodes_.assign(1, {});
@@ -251,7 +260,7 @@ std::optional<OutlookPlan> Outlook::run(const Beam& beam, std::optional<Instant>
     next.erase(std::remove_if(next.begin(), next.end(), [&](std::size_t k) { return !judge(k); }), next.end());
     std::stable_sort(next.begin(), next.end(), [&](std::size_t a, std::size_t b) { return nodes_[a].score < nodes_[b].score; });
     layer.clear();
-    std::unordered_map<std::uint64_t, std::size_t> same;
+    std::unordered_map<std::uint64_t, std::vector<std::size_t>> same;
     for (const std::size_t k : next) {
       if (complete(k)) {
         const bool better = !best_node || nodes_[k].end < nodes_[*best_node].end ||
@@ -265,7 +274,10 @@ std::optional<OutlookPlan> Outlook::run(const Beam& beam, std::optional<Instant>
       }
       std::uint64_t places = 0;  // a number for where all robots are; two that are the same by chance cost a node
       for (RobotIndex i = 0; i < n; ++i) places = (places ^ state(k, i).place->number) * kMix + i;
-      if (++same[places] <= kSameKept) {
+      auto& there = same[places];
+      if (std::any_of(there.begin(), there.end(), [&](std::size_t other) { return no_sooner(k, other); })) continue;
+      if (there.size() < kSameKept) {
+        there.push_back(k);
         layer.push_back(k);
       } else {
         cut = true;
