@@ -28,7 +28,13 @@ void Outlook::fulfil(Wish& wish) {
     if (!w->pair) w->pair = make_pair(w->robot, w->motion, w->other, w->moving);
   } else {
     auto& d = std::get<DetourWish>(wish);
-    if (!d.detours) d.detours = find_detours(d.robot, *d.posture, d.back, d.served);
+    if (!d.detours) {
+      // Not at the posture itself, which would keep the ways: what a search knows may not depend on how much was found out in time.
+      Posture there;
+      there.q = d.posture->q;
+      there.body = d.posture->body;
+      d.detours = find_detours(d.robot, there, d.back, d.served);
+    }
   }
   map_work_ = before;
 }

@@ -66,6 +66,29 @@ TEST(Lookahead, DecidesTheSameHoweverMuchWasPrepared) {
   EXPECT_EQ(run_experiment("exp-6-2", 2, 1, false).makespan, run_experiment("exp-6-2", 2, 1, true).makespan);
 }
 
+/// Where robots have to make way for each other, more is wished than can be found out in time.
+TEST(Lookahead, MakesTheSameDetoursHoweverMuchWasPrepared) {
+  const auto cell = deployed_cell("pattern-square-4");
+  for (const std::uint64_t seed : {1U, 5U}) {
+    sim::GeneratorOptions what;
+    what.seed = seed;
+    what.per_robot = 6;
+    const auto program = sim::generate_program(*cell, what).value();
+    const auto story = [&](bool prepare) {
+      std::vector<std::string> said;
+      sim::VirtualOptions options;
+      options.strategy = "lookahead";
+      options.prepare = prepare;
+      options.on_status = [&](const model::CommandStatus& s) {
+        said.push_back(s.id.str() + " " + (s.start ? std::to_string(s.start->time_since_epoch().count()) : "") + " " + s.text);
+      };
+      expect_all_done(sim::run_virtual(cell, program, options));
+      return said;
+    };
+    EXPECT_EQ(story(false), story(true)) << "seed " << seed;
+  }
+}
+
 TEST(Lookahead, IsNeverLaterThanEventAndTellsTheSameStoryTwice) {
   constexpr double kSame = 1e-6;  // [s] rounding
   Seed seed;
