@@ -15,10 +15,10 @@ using model::Reason;
 
 namespace {
 
-constexpr double kFirstLook = 10;          // budgets for the first decision, when a plan is made
-constexpr double kMapShare = 0.1;          // of the budget, that may go into maps that nobody has prepared
+constexpr double kFirstLook = 10;         // budgets for the first decision, when a plan is made
+constexpr double kMapShare = 0.1;         // of the budget, that may go into maps that nobody has prepared
 constexpr double kGrantsPerSecond = 400;  // a twentieth of the time on the machines of today: they have other things to do
-constexpr double kLongest = 10;            // [s] for which it goes on
+constexpr double kLongest = 10;           // [s] for which it goes on
 
 }  // namespace
 
