@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -15,6 +16,7 @@
 
 #include "common/model/cell.hpp"
 #include "planner/core/neighbourhood.hpp"
+#include "planner/core/pair_rest.hpp"
 #include "planner/core/strategy.hpp"
 
 namespace interlace::core {
@@ -63,7 +65,8 @@ struct OutlookPlan {
 /// What can come of all commands that wait, if all goes as planned: a search over the order in which robots start, each as early as what
 /// has started before leaves it clear. A start is judged as the planner itself will judge it when its time comes, with everybody else
 /// standing where his last start leads: so each start of a plan can be sent when its turn comes, whatever becomes of those after it. On
-/// kept maps: what a pair of motions forbids is a few intervals. Where nobody who is waited for will move by himself, one in the way makes
+/// kept maps: what a pair of motions forbids is a few intervals. Beginnings are judged by what each two robots that can meet need together
+/// for all they have before them. Where nobody who is waited for will move by himself, one in the way makes
 /// a detour. Pure and deterministic: work is counted, not timed. Not thread-safe. Source: beam search; DESIGN section 6, strategy
 /// `lookahead`.
 class Outlook {
@@ -148,6 +151,15 @@ class Outlook {
     std::optional<std::vector<Detour>> detours;
   };
   using Wish = std::variant<PairWish, DetourWish>;
+  /// What two that can meet have before them together.
+  struct Together {
+    std::array<RobotIndex, 2> robots{};
+    std::array<std::vector<std::uint64_t>, 2> ids;  // the motions that waited when it was found out
+    std::array<std::size_t, 2> gone{};              // of those, since
+    std::array<double, 2> beyond{};                 // that those which wait behind them take [s]
+    std::size_t unknown = 0;                        // pairs of motions it knows nothing of
+    std::optional<PairRest> rest;
+  };
   /// Where a robot stands with how many commands done.
   struct Place {
     std::size_t number = 0;  // among all places
@@ -216,6 +228,10 @@ class Outlook {
   }
   Row& row_of(const SampledMotionPtr& motion);
   Pair make_pair(model::RobotIndex robot, const SampledMotionPtr& motion, model::RobotIndex other, const SampledMotionPtr& moving);
+  void look_at_pairs();
+  void look_at(Together& t);
+  PairRest::Side beside(RobotIndex robot, RobotIndex other, std::size_t& unknown);
+  double outlook_of(std::size_t node, double mean);
   const Forbidden& forbidden_now(model::RobotIndex robot, const SampledMotionPtr& motion, model::RobotIndex other);
   const KeptMap& map_of(const SampledMotionPtr& motion, const SampledMotionPtr& moving);
   std::optional<double> first_clear(const SampledMotionPtr& served, const SampledMotionPtr& way);
@@ -258,6 +274,8 @@ class Outlook {
   std::vector<RobotState> states_;  // of all robots at each node
   std::uint64_t looks_ = 0;
   std::size_t next_beam_ = 0;
+  std::vector<Together> together_;
+  std::vector<double> ends_;            // of robots at the node that is judged
   std::optional<std::size_t> settled_;  // with so many detours everything was tried
   std::size_t work_ = 0, budget_ = 0;
   std::size_t map_work_ = 0, map_budget_ = 0;

@@ -217,6 +217,7 @@ std::optional<OutlookPlan> Outlook::search(const std::optional<Instant>& no_late
   map_work_ = 0;
   map_budget_ = budget.maps;
   std::optional<OutlookPlan> found;
+  look_at_pairs();
   for (; !exhausted(); ++next_beam_) {
     const Beam next = beam(next_beam_);
     if (settled_ && next.detours <= *settled_) continue;
@@ -246,15 +247,12 @@ std::optional<OutlookPlan> Outlook::run(const Beam& beam, std::optional<Instant>
       layer.insert(layer.end(), detours.begin(), detours.end());
     }
     const auto judge = [&](std::size_t k) {
-      double most = 0, sum = 0;
+      double most = 0;
       for (RobotIndex i = 0; i < n; ++i) {
         const RobotState& s = state(k, i);
-        const double end = model::to_seconds(s.free - lead_ + s.place->rest);
-        most = std::max(most, end);
-        sum += end;
+        most = std::max(most, model::to_seconds(s.free - lead_ + s.place->rest));
       }
-      Node& node = nodes_[k];
-      node.score = most + beam.mean * sum / static_cast<double>(n);
+      nodes_[k].score = outlook_of(k, beam.mean);
       return !no_later || most <= model::to_seconds(*no_later) + kSameTime;
     };
     next.erase(std::remove_if(next.begin(), next.end(), [&](std::size_t k) { return !judge(k); }), next.end());

@@ -8,7 +8,7 @@ namespace interlace::core {
 
 // What a look ahead counts as its work: 1 is a look at the intervals of one pair of motions, with which the rest is compared. A map counts
 // the same whether it is there already or not, so that a plan does not depend on who built it and when.
-inline constexpr double kWorkPerSecond = 80e6;
+inline constexpr double kWorkPerSecond = 64e6;
 inline constexpr std::size_t kMapWork = 1000;
 inline constexpr std::size_t kEvaluationWork = 3;  // of one distance in a map
 inline constexpr std::size_t kAdmitWork = 2500;
