@@ -15,12 +15,12 @@ namespace {
 using app::ExitCode;
 using model::CommandState;
 
-struct Arguments {
+struct CancelArguments {
   CellOptions cell;
   std::string robot, id;
 };
 
-ExitCode execute(const Arguments& a, Interrupts& interrupts) {
+ExitCode execute(const CancelArguments& a, Interrupts& interrupts) {
   Client client{client_options(a.cell)};
   const Interrupts::Scope scope{interrupts, [&] { client.wake(); }};
   if (const auto code = connect(client, a.cell, interrupts)) return *code;
@@ -47,7 +47,7 @@ ExitCode execute(const Arguments& a, Interrupts& interrupts) {
 }  // namespace
 
 Command cancel(CLI::App& parent) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<CancelArguments>();
   auto* command = parent.add_subcommand("cancel", "give up a command that has not started");
   command->add_option("ROBOT", a->robot, "whose command")->required();
   command->add_option("ID", a->id, "of the command, see `interlace status`")->required();

@@ -18,7 +18,7 @@ namespace {
 
 using app::ExitCode;
 
-struct Arguments {
+struct ReplaceArguments {
   CellOptions cell;
   std::string robot, program;
 };
@@ -29,7 +29,7 @@ ExitCode refuse(const std::string& text) {
 }
 
 /// What in a program cannot be part of a replacement; empty: nothing.
-std::string unfit(const model::Program& program, const Arguments& a) {
+std::string unfit(const model::Program& program, const ReplaceArguments& a) {
   if (!program.events.empty()) return fmt::format("{}: events: a replacement has commands only", a.program);
   for (const auto& [robot, steps] : program.robots) {
     if (robot.str() != a.robot && !steps.empty())
@@ -44,7 +44,7 @@ std::string unfit(const model::Program& program, const Arguments& a) {
   return {};
 }
 
-ExitCode execute(const Arguments& a, Interrupts& interrupts) {
+ExitCode execute(const ReplaceArguments& a, Interrupts& interrupts) {
   const auto program = app::load_program(a.program, nullptr);
   if (!program) return refuse(to_string(program.error()));
   if (const std::string why = unfit(*program, a); !why.empty()) return refuse(why);
@@ -77,7 +77,7 @@ ExitCode execute(const Arguments& a, Interrupts& interrupts) {
 }  // namespace
 
 Command replace(CLI::App& parent) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<ReplaceArguments>();
   auto* command = parent.add_subcommand("replace", "put other commands in the place of all that waits for a robot");
   command->add_option("ROBOT", a->robot, "whose queue")->required();
   command->add_option("PROGRAM", a->program, "program file with the commands for that robot alone, at most 100")->required();

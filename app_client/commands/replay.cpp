@@ -23,7 +23,7 @@ struct ReplayArguments {
   bool json = false;
 };
 
-nlohmann::json to_json(const recording::Replay& replay) {
+nlohmann::json json_of(const recording::Replay& replay) {
   nlohmann::json json{{"calls", replay.calls}, {"decisions", replay.decisions}, {"identical", !replay.difference}};
   if (const auto& d = replay.difference) {
     json["difference"] = {{"call", d->call},
@@ -47,7 +47,7 @@ ExitCode check_decisions(const ReplayArguments& a, const recording::Recorded& re
   bool identical = true;
   for (const recording::PlannerLife& life : recorded.lives) {
     const recording::Replay replay = recording::replay(cell, life);
-    json.push_back(to_json(replay));
+    json.push_back(json_of(replay));
     if (replay.difference) {
       identical = false;
       const auto& d = *replay.difference;

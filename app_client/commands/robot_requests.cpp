@@ -7,7 +7,7 @@ namespace interlace::client::commands {
 
 namespace {
 
-struct Arguments {
+struct RobotArguments {
   CellOptions cell;
   std::vector<std::string> robots;
 };
@@ -23,7 +23,7 @@ struct Request {
 };
 
 Command request(CLI::App& parent, const Request& r) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<RobotArguments>();
   auto* command = parent.add_subcommand(r.name, r.description);
   command->add_option("ROBOT", a->robots, "which robots; default: all");
   add_cell_options(*command, a->cell);

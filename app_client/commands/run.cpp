@@ -17,7 +17,7 @@ namespace {
 
 using app::ExitCode;
 
-struct Arguments {
+struct RunArguments {
   CellOptions cell;
   std::string program, report, cell_file;
   bool quiet = false;
@@ -42,7 +42,7 @@ void show_change(const PlannedCommand* planned, const Answer& answer, double t) 
 }
 
 /// Says why a run ended before its program did.
-void explain(RunEnd end, const Arguments& a, const Client& client) {
+void explain(RunEnd end, const RunArguments& a, const Client& client) {
   switch (end) {
     case RunEnd::finished: return;
     case RunEnd::interrupted: fmt::print(stderr, "interrupted: what had not started was given up\n"); return;
@@ -64,7 +64,7 @@ ExitCode judge(RunEnd end, const app::RunReport& report, const Client& client) {
 }
 
 /// Fails when the cell file is not the one the planner works with.
-bool same_cell(const app::LoadedCell& cell, const Arguments& a, const Client& client) {
+bool same_cell(const app::LoadedCell& cell, const RunArguments& a, const Client& client) {
   if (cell.cell.name != a.cell.cell) {
     fmt::print(stderr, "--cell: found \"{}\", but {} describes cell {}\n", a.cell.cell, a.cell_file, cell.cell.name);
     return false;
@@ -83,7 +83,8 @@ void add_clearance(const ClearanceWatch& clearance, app::RunReport& report) {
   report.collisions = clearance.observer().contacts();
 }
 
-ExitCode conduct(const Arguments& a, Client& client, const model::Program& program, const app::LoadedCell* cell, Interrupts& interrupts) {
+ExitCode conduct(const RunArguments& a, Client& client, const model::Program& program, const app::LoadedCell* cell,
+                 Interrupts& interrupts) {
   std::optional<ClearanceWatch> clearance;
   if (cell) {
     clearance.emplace(*cell, LocalTime::clock::now());
@@ -101,7 +102,7 @@ ExitCode conduct(const Arguments& a, Client& client, const model::Program& progr
   return judge(end, report, client);
 }
 
-ExitCode execute(const Arguments& a, Interrupts& interrupts) {
+ExitCode execute(const RunArguments& a, Interrupts& interrupts) {
   // Everything that can be wrong without a planner is found before one is asked for.
   if (const auto program = app::load_program(a.program, nullptr); !program) {
     return refuse(program.error());
@@ -130,7 +131,7 @@ ExitCode execute(const Arguments& a, Interrupts& interrupts) {
 }  // namespace
 
 Command run(CLI::App& parent) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<RunArguments>();
   auto* command = parent.add_subcommand("run", "run a program on a cell and report what became of it");
   command->add_option("PROGRAM", a->program, "program file (deploy/cells/*/program.yaml)")->required();
   add_cell_options(*command, a->cell);

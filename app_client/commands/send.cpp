@@ -16,7 +16,7 @@ namespace {
 using app::ExitCode;
 using model::CommandState;
 
-struct Arguments {
+struct SendArguments {
   CellOptions cell;
   std::string robot, id;
   MotionWords motion;
@@ -27,14 +27,14 @@ struct Arguments {
   double within = 600;  // [s]
 };
 
-ExitCode judge(const Answer& answer, const Arguments& a) {
+ExitCode judge(const Answer& answer, const SendArguments& a) {
   const CommandState state = answer.status.state;
   if (state == CommandState::completed) return ExitCode::ok;
   if (!a.wait && !model::is_final(state)) return answer.told ? ExitCode::ok : ExitCode::unavailable;
   return ExitCode::unserved;
 }
 
-ExitCode follow(Client& client, const model::CommandSubmitted& command, const Arguments& a, const Interrupts& interrupts) {
+ExitCode follow(Client& client, const model::CommandSubmitted& command, const SendArguments& a, const Interrupts& interrupts) {
   const LocalTime start = LocalTime::clock::now();
   client.on_answer([&](const Answer& answer) {
     if (a.cell.json) return;
@@ -70,7 +70,7 @@ ExitCode follow(Client& client, const model::CommandSubmitted& command, const Ar
   return interrupts.requested() ? ExitCode::interrupted : judge(answer, a);
 }
 
-ExitCode execute(const Arguments& a, Interrupts& interrupts) {
+ExitCode execute(const SendArguments& a, Interrupts& interrupts) {
   const auto motion = make_request(a.motion, make_units(a.length, a.angle));
   if (!motion) {
     fmt::print(stderr, "{}\n", motion.error());
@@ -92,7 +92,7 @@ ExitCode execute(const Arguments& a, Interrupts& interrupts) {
 }  // namespace
 
 Command send(CLI::App& parent) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<SendArguments>();
   auto* command = parent.add_subcommand("send", "send one command and wait until it is done");
   command->add_option("ROBOT", a->robot, "which robot")->required();
   command->add_option("MOVE", a->motion.move, "linear: straight TCP line; joint: synchronised joint move")

@@ -14,12 +14,12 @@ namespace {
 
 using app::ExitCode;
 
-struct Arguments {
+struct StatusArguments {
   CellOptions cell;
   bool watch = false;
 };
 
-void show(const Client& client, const Arguments& a) {
+void show(const Client& client, const StatusArguments& a) {
   const auto& state = *client.planner();
   if (a.cell.json) {
     std::cout << to_json(state, client.planner_alive()).dump(a.watch ? -1 : 2) << '\n' << std::flush;
@@ -28,7 +28,7 @@ void show(const Client& client, const Arguments& a) {
   }
 }
 
-ExitCode show_forever(Client& client, const Arguments& a, const Interrupts& interrupts) {
+ExitCode show_forever(Client& client, const StatusArguments& a, const Interrupts& interrupts) {
   std::optional<std::pair<std::uint64_t, model::Instant>> shown;
   bool alive = true;
   const auto stop_or_show = [&] {
@@ -45,7 +45,7 @@ ExitCode show_forever(Client& client, const Arguments& a, const Interrupts& inte
   return ExitCode::ok;
 }
 
-ExitCode execute(const Arguments& a, Interrupts& interrupts) {
+ExitCode execute(const StatusArguments& a, Interrupts& interrupts) {
   Client client{client_options(a.cell)};
   const Interrupts::Scope scope{interrupts, [&] { client.wake(); }};
   if (const auto code = hear_planner(client, a.cell, interrupts)) return *code;
@@ -57,7 +57,7 @@ ExitCode execute(const Arguments& a, Interrupts& interrupts) {
 }  // namespace
 
 Command status(CLI::App& parent) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<StatusArguments>();
   auto* command = parent.add_subcommand("status", "what every robot of a cell does, and what it waits for");
   add_cell_options(*command, a->cell);
   command->add_flag("--watch", a->watch, "again at each change, until Ctrl-C");

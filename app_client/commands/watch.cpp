@@ -17,7 +17,7 @@ namespace {
 
 using app::ExitCode;
 
-struct Arguments {
+struct WatchArguments {
   CellOptions cell;
   std::vector<std::string> robots;
   bool clearance = false;
@@ -55,7 +55,7 @@ nlohmann::json posture_json(const model::PostureReported& p, const model::Comman
 /// What has passed by since the watch began.
 class Watch {
  public:
-  Watch(const Arguments& a, const app::LoadedCell* cell) : a_(a), origin_(LocalTime::clock::now()) {
+  Watch(const WatchArguments& a, const app::LoadedCell* cell) : a_(a), origin_(LocalTime::clock::now()) {
     if (cell) clearance_.emplace(*cell, origin_);
   }
 
@@ -130,7 +130,7 @@ class Watch {
     return clearance_->of_another_cell() > 0 ? ExitCode::bad_input : ExitCode::unavailable;
   }
 
-  const Arguments& a_;
+  const WatchArguments& a_;
   LocalTime origin_;
   std::optional<ClearanceWatch> clearance_;
   std::map<model::RobotName, LocalTime> next_line_;
@@ -140,7 +140,7 @@ class Watch {
 };
 
 /// With a cell file all its robots; else those asked for; else those the planner knows.
-std::optional<ExitCode> choose_robots(const Arguments& a, const app::LoadedCell* cell, Client& client, const Interrupts& interrupts,
+std::optional<ExitCode> choose_robots(const WatchArguments& a, const app::LoadedCell* cell, Client& client, const Interrupts& interrupts,
                                       std::vector<model::RobotName>& robots) {
   if (a.clearance) {
     for (const auto& robot : cell->cell.robots) robots.push_back(robot.name);
@@ -153,7 +153,7 @@ std::optional<ExitCode> choose_robots(const Arguments& a, const app::LoadedCell*
   return std::nullopt;
 }
 
-ExitCode observe(const Arguments& a, const app::LoadedCell* cell, Interrupts& interrupts) {
+ExitCode observe(const WatchArguments& a, const app::LoadedCell* cell, Interrupts& interrupts) {
   Client client{client_options(a.cell)};
   const Interrupts::Scope scope{interrupts, [&] { client.wake(); }};
   std::vector<model::RobotName> robots;
@@ -172,7 +172,7 @@ ExitCode observe(const Arguments& a, const app::LoadedCell* cell, Interrupts& in
   return watch.finish();
 }
 
-ExitCode execute(const Arguments& a, Interrupts& interrupts) {
+ExitCode execute(const WatchArguments& a, Interrupts& interrupts) {
   if (a.clearance != !a.cell_file.empty()) {
     fmt::print(stderr, "--clearance and --cell-file belong together: the bodies of the robots stand in the cell file\n");
     return ExitCode::bad_input;
@@ -200,7 +200,7 @@ ExitCode execute(const Arguments& a, Interrupts& interrupts) {
 }  // namespace
 
 Command watch(CLI::App& parent) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<WatchArguments>();
   auto* command = parent.add_subcommand("watch", "where the robots are, or how near they come to each other");
   add_cell_options(*command, a->cell);
   auto* robots = command->add_option("ROBOT", a->robots, "robots to show; default: all the planner knows");
