@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,6 +61,28 @@ TEST(Lookahead, GoesSlowerOnlyWhereThatIsNotLater) {
     expect_all_done(report);
     EXPECT_LE(report.makespan, run_experiment(name, 0).makespan + 1e-6) << name;
   }
+}
+
+/// A command that sets out at once and goes slower: the whole ends no later, and commands are done sooner.
+TEST(Lookahead, GoesSlowerWhereCommandsAreDoneSoonerSo) {
+  const auto full = deployed_cell("pattern-triangle-3");
+  auto slow = std::make_shared<model::Cell>(*full);
+  for (model::Robot& robot : slow->robots) robot.tcp.slowest = 0.3;
+  sim::GeneratorOptions what;
+  what.seed = 4;
+  what.per_robot = 6;
+  const auto program = sim::generate_program(*full, what).value();
+  const auto ends = [](const app::RunReport& r) {
+    double sum = 0;
+    for (const app::CommandRow& c : r.commands) sum += c.end.value_or(0);
+    return sum;
+  };
+  const auto without = run(full, program, "lookahead"), with = run(slow, program, "lookahead");
+  expect_all_done(with);
+  const auto slower = [](const app::CommandRow& c) { return c.explanation.find("goes at once and takes") != std::string::npos; };
+  EXPECT_GE(std::count_if(with.commands.begin(), with.commands.end(), slower), 1);
+  EXPECT_LE(with.makespan, without.makespan + 1e-6);
+  EXPECT_LT(ends(with), ends(without));
 }
 
 TEST(Lookahead, DecidesTheSameHoweverMuchWasPrepared) {
