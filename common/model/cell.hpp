@@ -54,13 +54,13 @@ struct Box {
 struct PlanningOptions {
   double resolution = 0.01;  ///< smallest cell of a collision map [s]
   double margin = 0;         ///< clearance kept beyond contact [m]
-  std::string strategy = "event";
+  std::string strategy = "lookahead";
   bool escapes = true;                    ///< robots in the way are sent out of it; else their neighbours wait for people
   std::optional<double> lead;             ///< shortest time from a decision to a start [s]; default: the program's own
   std::optional<double> start_tolerance;  ///< latest start after the planned one, before the controller's own latency [s]; ditto
   double patience = 120;                  ///< a command whose turn came longer ago goes before all others, whatever their priority [s]
   double budget = 0.02;                   ///< of one decision of the strategy `lookahead` [s], counted in work, not measured
-  double promise = 2;       ///< a start of `lookahead` may be so long before a promised departure it relies on [s]; 0: only after
+  double promise = 0;       ///< a start of `lookahead` may be so long before a promised departure it relies on [s]; 0: only after
   std::optional<Box> zone;  ///< of the strategy `zone`; default: made from what the robots can reach
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStep = 0.2;  // [s] of delays
 constexpr double kLetBy = 5;   // [s] it takes until somebody makes room
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kUnreachable = std::numeric_limits<double>::infinity();
 
 double alone(const PairRest::Side& side, std::size_t done) {
   return std::accumulate(side.takes.begin() + static_cast<std::ptrdiff_t>(done) + 1, side.takes.end(), 0.0);
@@ -32,11 +32,12 @@ PairRest::PairRest(const Side& a, const Side& b) : n_b_(b.takes.size()) {
         const double later = static_cast<double>(k) * kStep - most_;
         double rest = std::abs(later);
         if (!all_a || !all_b) {
-          const double a_next = all_a ? kNever : after_next(a, b, done_a, done_b, later, false);
-          const double b_next = all_b ? kNever : after_next(b, a, done_b, done_a, -later, true);
+          const double a_next = all_a ? kUnreachable : after_next(a, b, done_a, done_b, later, false);
+          const double b_next = all_b ? kUnreachable : after_next(b, a, done_b, done_a, -later, true);
           rest = std::min(a_next, b_next);
         }
-        if (rest == kNever) rest = std::max(alone(a, done_a) + std::max(0.0, -later), alone(b, done_b) + std::max(0.0, later)) + kLetBy;
+        if (rest == kUnreachable)
+          rest = std::max(alone(a, done_a) + std::max(0.0, -later), alone(b, done_b) + std::max(0.0, later)) + kLetBy;
         rest_[index(done_a, done_b) + k] = static_cast<float>(rest);
       }
     }

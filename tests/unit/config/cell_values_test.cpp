@@ -87,7 +87,8 @@ robots:
   EXPECT_EQ(robot.controller.latest_start(), 0);
   EXPECT_EQ(robot.model.self_pairs, model::default_self_pairs(robot.model.capsules));
   EXPECT_FALSE(cell.planning.zone);
-  EXPECT_EQ(cell.planning.strategy, "event");
+  EXPECT_EQ(cell.planning.strategy, "lookahead");
+  EXPECT_EQ(cell.planning.promise, 0) << "who wants starts that rely on promised departures has to say so";
   EXPECT_TRUE(cell.planning.escapes);
   EXPECT_DOUBLE_EQ(cell.planning.resolution, 0.01);
   EXPECT_FALSE(cell.planning.lead);

@@ -41,7 +41,7 @@ TEST(Lookahead, IsNearTheOptimum) {
   const std::vector<std::pair<std::string, double>> targets{
       {"exp-4-1", 42.04}, {"exp-4-2", 29.47}, {"exp-5-1", 40.57}, {"exp-6-1", 37.23}, {"exp-6-2", 38.6}};
   for (const auto& [name, most] : targets) {
-    const auto report = run_experiment(name, model::PlanningOptions{}.promise);
+    const auto report = run_experiment(name, 2);
     expect_all_done(report);
     EXPECT_LE(report.makespan, most) << name;
   }
