@@ -14,11 +14,12 @@ Timing Planner::timing_ahead(Instant now) const {
 }
 
 /// Whether `r` may be relied on to start its commitment `serial` in its window: its proxy has accepted that, or it is carrying out the
-/// motion before it, as told. It is heard from.
+/// motion before it, as told, and waits for nobody then but those who may be relied on themselves. It is heard from.
 bool Planner::promises(const RobotRecord& r, std::uint64_t serial) const {
   if (r.lost() || !r.committed) return false;
   if (r.committed->serial == serial) return r.committed->phase == Commitment::Phase::dispatched && r.committed->accepted;
-  return r.following && r.following->serial == serial && r.committed->phase == Commitment::Phase::started;
+  if (!r.following || r.following->serial != serial || r.committed->phase != Commitment::Phase::started) return false;
+  return departures_of(*r.following) == Departures::met;
 }
 
 /// A robot whose start relies on the start of `promised` by `r`, which has not been reported; null when there is none. `under_way`: one

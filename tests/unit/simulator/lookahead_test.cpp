@@ -153,6 +153,14 @@ TEST(Lookahead, TakesUpCommandsThatComeLater) {
   expect_all_done(run(cell, program, "lookahead"));
 }
 
+/// Regression: r4 relied on r2 leaving, which relied on an escape of r1, which had to wait until r3 had left. r2 could not leave in time.
+TEST(Lookahead, ReliesOnNoDepartureThatWaitsForAnotherOne) {
+  const auto cell = deployed_cell("pattern-square-4");
+  sim::GeneratorOptions what;
+  what.seed = 846;
+  expect_all_done(run(cell, sim::generate_program(*cell, what).value(), "lookahead"));
+}
+
 TEST(Lookahead, SaysForWhomARobotWaits) {
   const auto cell = deployed_cell("exp-6-2");
   const auto program = app::load_program(deployed("exp-6-2/program.yaml"), cell.get()).value();
