@@ -34,8 +34,8 @@ std::string strategy_table() {
       {"zone", "one robot at a time in the shared zone"},
       {"eef-map", "a collision map of the end-effectors only"},
       {"acm", "the dissertation's method as written"},
-      {"event", "the default: the earliest start that is clear of everything committed"},
-      {"lookahead", "as `event`, with regard to the commands that already wait in the queues"}};
+      {"event", "the earliest start that is clear of everything committed"},
+      {"lookahead", "the default: as `event`, in the order of a plan for all commands that wait"}};
   std::vector<std::vector<std::string>> rows;
   for (const auto name : core::strategy_names()) {
     const auto found = meanings.find(name);
